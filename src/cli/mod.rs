@@ -1,0 +1,1 @@
+//! Arguments only: what was typed, and what it means.

@@ -1,0 +1,132 @@
+//! What is kept of a run.
+
+use serde::{Deserialize, Serialize};
+
+use crate::study::model::AxisValue;
+
+/// Identity of a point: BLAKE3 of canonical settings, seed, simulator sources and schema, in hex.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct PointId(pub String);
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Status {
+    Completed,
+    Diverged,
+    Panicked,
+    TimedOut,
+    OutOfMemory,
+}
+
+/// One finished run, whatever its end.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    pub id: PointId,
+    pub study: String,
+    pub scene: String,
+    pub axes: Vec<(String, AxisValue)>,
+    pub seed: u64,
+    /// Canonical settings, JSON.
+    pub settings: serde_json::Value,
+    pub status: Status,
+    /// In words, when the run did not complete.
+    pub reason: Option<String>,
+    pub scalars: Vec<Scalar>,
+    /// Work counters by name: machine-independent.
+    pub counters: Vec<(String, u64)>,
+    /// Time series and profiles.
+    pub tables: Vec<Table>,
+    pub timing: Timing,
+}
+
+/// A named number with its unit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scalar {
+    pub name: String,
+    pub unit: String,
+    pub value: f64,
+}
+
+/// Columns of equal length; the first is the independent variable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    /// `time_series`, or the name of a profile.
+    pub name: String,
+    pub columns: Vec<Column>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    pub name: String,
+    pub unit: String,
+    pub values: Vec<f64>,
+}
+
+impl Run {
+    pub fn scalar(&self, name: &str) -> Option<&Scalar> {
+        self.scalars.iter().find(|scalar| scalar.name == name)
+    }
+
+    pub fn table(&self, name: &str) -> Option<&Table> {
+        self.tables.iter().find(|table| table.name == name)
+    }
+
+    /// Value of a parameter: an axis, `scene`, or the one settings field of that name.
+    pub fn parameter(&self, name: &str) -> Option<AxisValue> {
+        if name == "scene" {
+            return Some(AxisValue::Word(self.scene.clone()));
+        }
+        self.axis(name).cloned().or_else(|| leaf(&self.settings, name))
+    }
+
+    pub fn axis(&self, name: &str) -> Option<&AxisValue> {
+        self.axes
+            .iter()
+            .find(|(axis, _)| axis == name)
+            .map(|(_, value)| value)
+    }
+}
+
+/// The first leaf called `name` in a tree of settings, depth first.
+fn leaf(tree: &serde_json::Value, name: &str) -> Option<AxisValue> {
+    let fields = tree.as_object()?;
+    let here = fields
+        .get(name)
+        .and_then(|value| serde_json::from_value(value.clone()).ok());
+    here.or_else(|| fields.values().find_map(|branch| leaf(branch, name)))
+}
+
+impl Table {
+    pub fn column(&self, name: &str) -> Option<&Column> {
+        self.columns.iter().find(|column| column.name == name)
+    }
+}
+
+/// What differs from machine to machine and run to run; kept apart from the results.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Timing {
+    /// [s]
+    pub wall: f64,
+    /// CPU time of the threads that worked on the point [s].
+    pub cpu: f64,
+    /// Peak memory of the point [bytes].
+    pub peak_memory: u64,
+    pub provenance: Provenance,
+}
+
+/// Where a result comes from.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Provenance {
+    pub version: String,
+    pub commit: String,
+    pub dirty: bool,
+    /// BLAKE3 of Cargo.lock.
+    pub lock_hash: String,
+    /// BLAKE3 of the simulator's sources.
+    pub simulator_hash: String,
+    pub compiler: String,
+    pub cpu: String,
+    /// RFC 3339, UTC.
+    pub finished: String,
+}

@@ -1,0 +1,185 @@
+//! A study after parsing: plain data. Past this point nothing knows that YAML exists.
+
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
+
+/// A study file, parsed and checked.
+#[derive(Clone, Debug)]
+pub struct Study {
+    /// File stem; also the folder name below `reports/` and the store.
+    pub name: String,
+    pub path: PathBuf,
+    /// The question the study answers, one sentence.
+    pub question: String,
+    /// Scenes by name; a study with one unnamed `scene` calls it `scene`.
+    pub scenes: Vec<String>,
+    pub axes: Vec<Axis>,
+    pub seeds: Vec<u64>,
+    /// Observables to keep, by name.
+    pub observe: Vec<String>,
+    pub expect: Vec<Expectation>,
+    pub figures: Vec<Figure>,
+    pub plan: Plan,
+}
+
+/// A varied parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// Short name: store column, figure label.
+    pub name: String,
+    /// SI unit, `1` when dimensionless, empty for words.
+    pub unit: String,
+    pub values: Vec<AxisValue>,
+    /// Names of the scenes in which the axis binds.
+    pub scenes: Vec<String>,
+}
+
+/// A value on an axis, in SI units.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum AxisValue {
+    Number(f64),
+    Flag(bool),
+    Word(String),
+}
+
+/// Every point of the study, in a stable order.
+#[derive(Clone, Debug, Default)]
+pub struct Plan {
+    pub points: Vec<Point>,
+}
+
+/// One run: a scene with all its parameters and a seed.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// Position in the plan.
+    pub index: usize,
+    /// Name of the scene inside the study.
+    pub scene: String,
+    /// Values of the axes that bind in this scene.
+    pub axes: Vec<(String, AxisValue)>,
+    pub seed: u64,
+    /// Canonical settings of the scene: map form, SI numbers, defaults filled in, keys sorted.
+    pub settings: serde_json::Value,
+    /// The scene itself, ready to run.
+    pub work: Work,
+}
+
+/// What a point runs.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Work {
+    Simulation(kynch_sim::scene::Scene),
+    Rehearsal(Rehearsal),
+}
+
+/// A scene without physics: it returns a known series, so that plans, stores, verdicts and reports
+/// can be tried in milliseconds, failures included.
+///
+/// `value(t) = limit · (1 + error · scale^order) · (1 − exp(−t / time_constant))`, sampled at
+/// `samples` instants up to `duration`; scalar `limit` is its limit, scalar `scale` its scale.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rehearsal {
+    pub limit: f64,
+    pub time_constant: f64,
+    pub duration: f64,
+    pub samples: u32,
+    pub scale: f64,
+    pub order: f64,
+    pub error: f64,
+    /// Real time to spend [s].
+    pub delay: f64,
+    /// How it ends.
+    pub ending: RehearsalEnding,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RehearsalEnding {
+    Completes,
+    Diverges,
+    Panics,
+}
+
+/// Which runs a statement is about: every given name must match.
+/// `scene` matches the scene name; any other name is an axis with its admitted values.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Selection {
+    pub scenes: Vec<String>,
+    pub axes: Vec<(String, Vec<AxisValue>)>,
+}
+
+/// A statement that a study expects to hold.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expectation {
+    /// Stable identifier: given by `id:` or made of kind and position.
+    pub id: String,
+    pub check: Check,
+    pub selection: Selection,
+    /// Claim identifiers it settles (`raso-fig5.4-c1`).
+    pub claims: Vec<String>,
+    /// Reported and shown, but never gates the exit code; with the reason.
+    pub informative: Option<String>,
+}
+
+/// Bounds on a number; at least one is given.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Band {
+    pub above: Option<f64>,
+    pub below: Option<f64>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum Check {
+    /// A scalar lies in a band, in every selected run.
+    Value { of: String, band: Band },
+    /// Largest relative error of a quantity against a reference is below a bound, in every selected
+    /// run. For a scalar: |x/x_ref − 1|; for a series: max|x − x_ref| over max|x_ref|.
+    Error { of: String, against: String, below: f64 },
+    /// Observed order of the error over an axis.
+    Order {
+        of: String,
+        against: String,
+        over: String,
+        is: f64,
+        within: f64,
+    },
+    /// A scalar rises (or falls) along an axis, everything else fixed.
+    Monotone { of: String, over: String, rising: bool },
+}
+
+/// A figure to draw.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// Stable identifier: given by `id:` or made of kind and position; also the file stem.
+    pub id: String,
+    pub title: Option<String>,
+    pub kind: FigureKind,
+    pub selection: Selection,
+    /// Thesis figure it stands beside (`raso-fig5.18`).
+    pub thesis: Option<String>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum FigureKind {
+    /// Series over time, one line per run, with the reference where one is named.
+    TimeSeries {
+        of: Vec<String>,
+        against: Option<String>,
+        group: Option<String>,
+    },
+    /// Relative error over an axis, log–log, slope triangle, GCI bars.
+    ErrorAgainstResolution {
+        of: String,
+        against: String,
+        over: String,
+        group: Option<String>,
+    },
+    /// Run time against error with the Pareto front.
+    RunTimeAgainstError {
+        of: String,
+        against: String,
+        group: Option<String>,
+    },
+    /// A profile table, one line per run: first column upwards, `of` along.
+    Profile { of: String, group: Option<String> },
+}
