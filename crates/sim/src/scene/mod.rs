@@ -1,5 +1,10 @@
 //! The scenes the simulator knows, as plain data in SI units.
 
+mod profiles;
+mod record;
+pub mod run_sph;
+pub mod setup;
+
 use crate::outcome::{Control, Failure, Outcome};
 
 /// A complete, self-contained description of one simulation.
@@ -129,6 +134,7 @@ pub struct Scheme {
     /// α form of the real viscosity, `None` uses the Morris form.
     pub viscosity_constant: Option<f64>,
     pub porosity: PorosityPath,
+    pub sharpening: SharpeningChoice,
     pub start: Start,
     /// Density that multiplies the fluid stress on a grain.
     pub stress_density: StressDensity,
@@ -174,6 +180,15 @@ pub enum PorosityPath {
     TwoPass,
 }
 
+/// Whether smoothing between grains and fluid gives back what it takes from sharp edges.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SharpeningChoice {
+    /// Plain kernels.
+    None,
+    /// Exchange kernels of zero second moment, porosity kernels of zero mean distance.
+    Conservative,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Start {
     /// Exact equilibrium, no relaxation.
@@ -205,6 +220,7 @@ impl Default for Scheme {
             artificial_viscosity: None,
             viscosity_constant: None,
             porosity: PorosityPath::OnePass,
+            sharpening: SharpeningChoice::Conservative,
             start: Start::Exact,
             stress_density: StressDensity::Superficial,
             slip: Slip::Superficial,
@@ -285,6 +301,10 @@ pub fn describe(_scene: &Scene) -> Description {
 ///
 /// # Errors
 /// [`Failure`] when the run diverges or is stopped; it keeps what was computed.
-pub fn run(_scene: &Scene, _control: &Control) -> Result<Outcome, Box<Failure>> {
-    todo!()
+pub fn run(scene: &Scene, control: &Control) -> Result<Outcome, Box<Failure>> {
+    let settling = setup::Settling::of(scene);
+    match settling.sph() {
+        Some(sph) => setup::with_law!(settling.drag, law => run_sph::run(&settling, sph, law, control)),
+        None => todo!(),
+    }
 }

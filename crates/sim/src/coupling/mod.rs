@@ -1,0 +1,13 @@
+//! What grains and fluid do to each other: porosity, sampled fields, handed-back impulses.
+
+mod breathing;
+mod disturbance;
+mod exchange;
+mod grain_porosity;
+mod layers;
+
+pub use breathing::Breathing;
+pub use disturbance::{Basin, SelfInducedFlow};
+pub use exchange::{Exchange, Field};
+pub use grain_porosity::grain_porosity;
+pub use layers::Layers;

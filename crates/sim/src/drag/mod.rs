@@ -1,0 +1,92 @@
+//! Drag on one grain as a correction to Stokes drag, so that rest needs no branch.
+//!
+//! Force on the grain, with the superficial slip u_s = ε (u_f − v) and Re = ρ_f d |u_s| / μ:
+//!
+//! ```text
+//! f = 3π μ d · factor(Re) · voidage(ε, Re) · u_s
+//! ```
+//!
+//! This is the drag of model A, which leaves the pressure gradient force apart; model B
+//! divides it by ε and uses the buoyancy of the pure fluid.
+
+mod coulson_richardson;
+mod dallavalle;
+mod di_felice;
+mod schiller_naumann;
+mod stokes;
+
+pub use coulson_richardson::CoulsonRichardson;
+pub use dallavalle::Dallavalle;
+pub use di_felice::DiFelice;
+pub use schiller_naumann::SchillerNaumann;
+pub use stokes::Stokes;
+
+use std::f64::consts::PI;
+
+/// A drag law: parameters in, numbers out.
+pub trait DragLaw: Copy {
+    /// Drag over Stokes drag at Reynolds number `re` [-] and porosity `porosity` [-].
+    fn factor(&self, re: f64, porosity: f64) -> f64;
+}
+
+/// The fluid and the size a drag coefficient needs.
+#[derive(Clone, Copy, Debug)]
+pub struct DragScale {
+    /// Grain diameter d [m].
+    pub diameter: f64,
+    /// Fluid density ρ_f [kg/m³].
+    pub density: f64,
+    /// Fluid viscosity μ [Pa s].
+    pub viscosity: f64,
+}
+
+impl DragScale {
+    /// Reynolds number of a superficial slip speed [-].
+    pub fn reynolds(&self, slip: f64) -> f64 {
+        self.density * self.diameter * slip / self.viscosity
+    }
+
+    /// Drag per superficial slip β [kg/s] at slip speed `slip` [m/s].
+    #[inline]
+    pub fn coefficient(&self, law: &impl DragLaw, slip: f64, porosity: f64) -> f64 {
+        3.0 * PI * self.viscosity * self.diameter * law.factor(self.reynolds(slip), porosity)
+    }
+
+    /// Superficial slip speed [m/s] at which the drag equals `force` [N].
+    pub fn balance(&self, law: &impl DragLaw, force: f64, porosity: f64) -> f64 {
+        let drag = |slip: f64| slip * self.coefficient(law, slip, porosity) - force;
+        let mut high = force / (3.0 * PI * self.viscosity * self.diameter);
+        while drag(high) < 0.0 {
+            high *= 2.0;
+        }
+        crate::math::bisect(0.0, high, drag)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WATER: DragScale = DragScale {
+        diameter: 1e-4,
+        density: 1000.0,
+        viscosity: 0.89e-3,
+    };
+
+    #[test]
+    fn balance_returns_the_slip_that_carries_the_force() {
+        for law in [0.3, 0.6, 0.95] {
+            let slip = WATER.balance(&DiFelice, 7.0e-9, law);
+            let force = slip * WATER.coefficient(&DiFelice, slip, law);
+            assert!((force / 7.0e-9 - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn hindered_settling_of_the_reference_suspension_is_4_91_millimetres_per_second() {
+        // Force balance of Raso (2014) eq. 4.4 with 0.63² at porosity 0.9: 4.912 mm/s.
+        let weight = PI / 6.0 * 1e-12 * 1500.0 * 9.81;
+        let speed = WATER.balance(&DiFelice, 0.9 * weight, 0.9);
+        assert!((speed - 4.91237e-3).abs() < 2e-8, "{speed}");
+    }
+}

@@ -1,0 +1,5 @@
+//! Time integration of grains.
+
+mod exact_drag;
+
+pub use exact_drag::ExactDrag;

@@ -1,0 +1,33 @@
+//! Vectors and the few numbers every room needs.
+
+/// A vector in SI units.
+pub type Vec3 = nalgebra::Vector3<f64>;
+
+/// Root of a rising function between `low` and `high`, by bisection to full precision.
+///
+/// The caller guarantees `f(low) ≤ 0 ≤ f(high)`; otherwise the nearer end is returned.
+pub fn bisect(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            break;
+        }
+        if f(middle) < 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn finds_the_root_of_a_cubic_to_rounding() {
+        let root = bisect(0.0, 10.0, |x| x * x * x - 2.0);
+        assert!((root * root * root - 2.0).abs() < 1e-14);
+    }
+}

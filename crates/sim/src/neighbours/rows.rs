@@ -1,0 +1,114 @@
+//! Full neighbour rows, padded so that every row is a whole number of lanes.
+
+use super::CellGrid;
+use crate::math::Vec3;
+
+/// Pairs evaluated at once. Eight doubles fill the widest registers; the sums are kept per lane,
+/// so the result is the same on every instruction set.
+pub const LANES: usize = 8;
+
+/// A copy of a particle beyond a periodic side.
+#[derive(Clone, Copy, Debug)]
+pub struct Image {
+    /// Index of the particle it copies.
+    pub source: u32,
+    /// Offset from it [m].
+    pub shift: Vec3,
+}
+
+/// Copies of all points within `reach` [m] of a side of the square [0, width)² in x and y.
+pub fn images(points: &[Vec3], width: f64, reach: f64) -> Vec<Image> {
+    let mut images = Vec::new();
+    for (source, point) in points.iter().enumerate() {
+        for ix in -1..=1 {
+            for iy in -1..=1 {
+                let shift = Vec3::new(ix as f64 * width, iy as f64 * width, 0.0);
+                let moved = point + shift;
+                let inside = |x: f64| x > -reach && x < width + reach;
+                if (ix, iy) != (0, 0) && inside(moved.x) && inside(moved.y) {
+                    images.push(Image {
+                        source: source as u32,
+                        shift,
+                    });
+                }
+            }
+        }
+    }
+    images
+}
+
+/// For each target, the indices of the points within a radius of it.
+#[derive(Clone, Debug, Default)]
+pub struct Rows {
+    starts: Vec<u32>,
+    members: Vec<u32>,
+    /// Pairs without padding.
+    pub pairs: u64,
+}
+
+impl Rows {
+    /// Rows of `targets` among `points` closer than `radius` [m]; the target itself is left out when
+    /// it is one of the points (distance zero). Rows are padded with the index `nobody`.
+    pub fn new(targets: &[Vec3], points: &[Vec3], radius: f64, nobody: u32) -> Self {
+        let grid = CellGrid::new(points, radius);
+        let mut rows = Rows {
+            starts: Vec::with_capacity(targets.len() + 1),
+            members: Vec::new(),
+            pairs: 0,
+        };
+        rows.starts.push(0);
+        for target in targets {
+            let first = rows.members.len();
+            grid.visit_near(target, |index| {
+                let distance2 = (points[index as usize] - target).norm_squared();
+                if distance2 < radius * radius && distance2 > 0.0 {
+                    rows.members.push(index);
+                }
+            });
+            rows.members[first..].sort_unstable();
+            rows.pairs += (rows.members.len() - first) as u64;
+            let padded = (rows.members.len() - first).next_multiple_of(LANES);
+            rows.members.resize(first + padded, nobody);
+            rows.starts.push(rows.members.len() as u32);
+        }
+        rows
+    }
+
+    /// Neighbours of a target: a whole number of lanes.
+    #[inline(always)]
+    pub fn row(&self, target: usize) -> &[u32] {
+        &self.members[self.starts[target] as usize..self.starts[target + 1] as usize]
+    }
+
+    /// Number of targets.
+    pub fn len(&self) -> usize {
+        self.starts.len().saturating_sub(1)
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn images_make_a_periodic_lattice_homogeneous() {
+        let n = 6;
+        let points: Vec<Vec3> = (0..n * n)
+            .map(|i| Vec3::new((i % n) as f64 + 0.5, (i / n) as f64 + 0.5, 0.0))
+            .collect();
+        let mut all = points.clone();
+        all.extend(
+            images(&points, n as f64, 2.1)
+                .iter()
+                .map(|i| points[i.source as usize] + i.shift),
+        );
+        let rows = Rows::new(&points, &all, 2.1, u32::MAX);
+        // Twelve lattice neighbours lie within 2.1 spacings in a plane, rows are padded to sixteen.
+        assert_eq!(rows.pairs, 12 * (n * n) as u64);
+        assert!((0..rows.len()).all(|i| rows.row(i).len() == 16));
+    }
+}

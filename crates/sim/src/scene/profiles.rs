@@ -1,0 +1,93 @@
+//! Profiles over height at the end of a run.
+
+use crate::drag::DragLaw;
+use crate::outcome::{Column, Table};
+use crate::simulation::{GrainPorosity, Simulation};
+
+/// Horizontal means of the fluid, one bin per spacing.
+pub fn fluid<L: DragLaw>(simulation: &Simulation<L>) -> Vec<Table> {
+    let fluid = &simulation.fluid;
+    let spacing = fluid.numerics.spacing;
+    let top = fluid.position.iter().map(|x| x.z).fold(0.0, f64::max);
+    let bins = (top / spacing) as usize + 1;
+    let mut sums = vec![[0.0; 4]; bins];
+    for a in 0..fluid.len() {
+        let bin = ((fluid.position[a].z / spacing).max(0.0) as usize).min(bins - 1);
+        let row = [1.0, fluid.porosity[a], fluid.velocity[a].z, fluid.pressure[a]];
+        sums[bin]
+            .iter_mut()
+            .zip(row)
+            .for_each(|(sum, value)| *sum += value);
+    }
+    let filled: Vec<(f64, [f64; 4])> = sums
+        .iter()
+        .enumerate()
+        .filter(|(_, sums)| sums[0] > 0.0)
+        .map(|(bin, sums)| ((bin as f64 + 0.5) * spacing, sums.map(|sum| sum / sums[0])))
+        .collect();
+    let table = |name, column, unit, field: usize| Table {
+        name,
+        columns: vec![
+            Column {
+                name: "height",
+                unit: "m",
+                values: filled.iter().map(|row| row.0).collect(),
+            },
+            Column {
+                name: column,
+                unit,
+                values: filled.iter().map(|row| row.1[field]).collect(),
+            },
+        ],
+    };
+    vec![
+        table("porosity_profile", "porosity_profile", "1", 1),
+        table("fluid_velocity_profile", "fluid_velocity_profile", "m/s", 2),
+        table("pressure_profile", "pressure_profile", "Pa", 3),
+    ]
+}
+
+/// Means over each horizontal layer of grains: the porosity they see, slip and drag.
+pub fn layers<L: DragLaw>(simulation: &Simulation<L>, layers: usize) -> Option<Table> {
+    let GrainPorosity::Known(porosity) = &simulation.rules.porosity else {
+        return None;
+    };
+    if layers == 0 {
+        return None;
+    }
+    let grains = &simulation.grains.position;
+    let per_layer = grains.len() / layers;
+    let mean = |values: &[f64]| -> Vec<f64> {
+        values
+            .chunks(per_layer)
+            .map(|layer| layer.iter().sum::<f64>() / layer.len() as f64)
+            .collect()
+    };
+    let heights: Vec<f64> = grains.iter().map(|x| x.z).collect();
+    let report = &simulation.report;
+    Some(Table {
+        name: "layer_profile",
+        columns: vec![
+            Column {
+                name: "height",
+                unit: "m",
+                values: mean(&heights),
+            },
+            Column {
+                name: "grain_porosity",
+                unit: "1",
+                values: mean(porosity),
+            },
+            Column {
+                name: "grain_slip",
+                unit: "m/s",
+                values: mean(&report.grain_slip),
+            },
+            Column {
+                name: "grain_drag",
+                unit: "N",
+                values: mean(&report.grain_drag),
+            },
+        ],
+    })
+}

@@ -1,0 +1,246 @@
+//! Watches a run: time series, windows, momentum and final profiles.
+
+use super::SphFluid;
+use super::setup::Settling;
+use crate::drag::DragLaw;
+use crate::math::Vec3;
+use crate::outcome::{Column, Counters, Outcome, Scalar, Table};
+use crate::simulation::Simulation;
+
+/// Rows of a time series at most.
+const ROWS: u64 = 600;
+/// Steps between momentum audits.
+const AUDIT_INTERVAL: u64 = 20;
+
+/// A row of the time series.
+#[derive(Clone, Debug, Default)]
+pub struct Sample {
+    pub time: f64,
+    pub velocity: f64,
+    pub slip: f64,
+    pub drag: f64,
+    pub stress: f64,
+    pub disturbance: f64,
+    pub own_flow: f64,
+    pub height: f64,
+    pub tracked_slip: [f64; 4],
+    pub tracked_drag: [f64; 4],
+    pub momentum_error: f64,
+}
+
+pub struct Recorder {
+    every: u64,
+    tracked: [usize; 4],
+    samples: Vec<Sample>,
+    window: (f64, f64),
+    momentum_before: Vec3,
+    auditing: bool,
+    momentum_error: f64,
+    spurious: f64,
+    scalars: Vec<Scalar>,
+    relaxation: f64,
+    isolated: bool,
+    block_layers: usize,
+}
+
+impl Recorder {
+    pub fn new<L: DragLaw>(
+        settling: &Settling,
+        sph: &SphFluid,
+        dt: f64,
+        steps: u64,
+        simulation: &Simulation<L>,
+    ) -> Self {
+        let count = simulation.grains.position.len();
+        let sound = simulation.fluid.numerics.state.sound_speed;
+        let scalar = |name, unit, value| Scalar { name, unit, value };
+        Recorder {
+            every: steps.div_ceil(ROWS),
+            tracked: [0, count / 3, 2 * count / 3, count - 1],
+            samples: vec![Sample {
+                height: simulation.grains.position[0].z,
+                ..Sample::default()
+            }],
+            window: terminal_window(settling, Some(sound)),
+            momentum_before: Vec3::zeros(),
+            auditing: false,
+            momentum_error: 0.0,
+            spurious: 0.0,
+            relaxation: settling.relaxation_time(),
+            isolated: settling.sphere.is_some(),
+            block_layers: settling.block.map_or(0, |block| block.layers as usize),
+            scalars: vec![
+                scalar("sound_speed", "m/s", sound),
+                scalar("time_step", "s", dt),
+                scalar("smoothing_length", "m", simulation.fluid.numerics.smoothing()),
+                scalar("exchange_length", "m", simulation.exchange.length),
+                scalar("fluid_particles", "1", simulation.fluid.len() as f64),
+                scalar("grains", "1", count as f64),
+                scalar("porosity", "1", settling.porosity()),
+                scalar(
+                    "spacing_over_diameter",
+                    "1",
+                    settling.spacing(sph) / settling.grains.diameter,
+                ),
+            ],
+        }
+    }
+
+    /// Before a step: the momentum to compare with, on audited steps.
+    pub fn before<L: DragLaw>(&mut self, simulation: &Simulation<L>, step: u64, dt: f64) {
+        self.auditing = step % AUDIT_INTERVAL == 0;
+        if self.auditing {
+            self.momentum_before = simulation.momentum(dt);
+        }
+    }
+
+    /// After a step: audit and sample.
+    pub fn after<L: DragLaw>(&mut self, simulation: &Simulation<L>, step: u64, dt: f64) {
+        if self.auditing {
+            let outside = simulation.external_force() + simulation.fluid.wall_force();
+            let residual =
+                simulation.momentum(dt) - self.momentum_before - outside * dt - simulation.damper_impulse();
+            let exchanged = simulation.report.impulse.max(f64::MIN_POSITIVE);
+            self.momentum_error = self.momentum_error.max(residual.norm() / exchanged);
+            let fastest = simulation
+                .fluid
+                .velocity
+                .iter()
+                .map(Vec3::norm_squared)
+                .fold(0.0, f64::max);
+            self.spurious = self.spurious.max(fastest.sqrt());
+        }
+        if (step + 1) % self.every == 0 {
+            self.samples.push(self.sample(simulation));
+        }
+    }
+
+    fn sample<L: DragLaw>(&self, simulation: &Simulation<L>) -> Sample {
+        let report = &simulation.report;
+        Sample {
+            time: simulation.time,
+            velocity: -simulation.grains.velocity.z,
+            slip: report.slip,
+            drag: report.drag,
+            stress: report.stress,
+            disturbance: report.sampled,
+            own_flow: report.own_flow,
+            height: simulation.grains.position[0].z,
+            tracked_slip: self.tracked.map(|i| report.grain_slip[i]),
+            tracked_drag: self.tracked.map(|i| report.grain_drag[i]),
+            momentum_error: self.momentum_error,
+        }
+    }
+
+    /// Everything watched, as an outcome.
+    pub fn finish<L: DragLaw>(mut self, simulation: &Simulation<L>) -> Outcome {
+        let mut push = |name, unit, value| self.scalars.push(Scalar { name, unit, value });
+        let times: Vec<f64> = self.samples.iter().map(|sample| sample.time).collect();
+        let velocity: Vec<f64> = self.samples.iter().map(|sample| sample.velocity).collect();
+        if let Some((mean, drift)) = window_mean(&times, &velocity, self.window) {
+            push("terminal_velocity", "m/s", mean);
+            push("terminal_velocity_drift", "m/s", drift);
+        }
+        push("momentum_error", "1", self.momentum_error);
+        push("spurious_velocity", "m/s", self.spurious);
+        push("overlap", "1", simulation.report.overlap);
+        if self.isolated {
+            let largest = self.samples.iter().map(|s| s.velocity).fold(0.0, f64::max);
+            let settled = || {
+                self.samples
+                    .iter()
+                    .filter(|sample| sample.time > 3.0 * self.relaxation)
+            };
+            let gap = settled()
+                .map(|s| (s.disturbance - s.own_flow).abs())
+                .fold(0.0, f64::max);
+            let wake = settled().map(|s| s.disturbance.abs()).fold(0.0, f64::max);
+            push("disturbance", "1", wake / largest);
+            if self.samples.iter().any(|sample| sample.own_flow != 0.0) {
+                push("self_disturbance_error", "1", gap / wake);
+            }
+        }
+        let mut tables = vec![self.series()];
+        tables.extend(super::profiles::fluid(simulation));
+        tables.extend(super::profiles::layers(simulation, self.block_layers));
+        Outcome {
+            scalars: self.scalars,
+            tables,
+            counters: counters(simulation),
+        }
+    }
+
+    fn series(&self) -> Table {
+        let column = |name, unit, value: fn(&Sample) -> f64| Column {
+            name,
+            unit,
+            values: self.samples.iter().map(value).collect(),
+        };
+        let mut columns = vec![
+            column("time", "s", |s| s.time),
+            column("velocity", "m/s", |s| s.velocity),
+            column("height", "m", |s| s.height),
+            column("slip_velocity", "m/s", |s| s.slip),
+            column("drag_force", "N", |s| s.drag),
+            column("stress_force", "N", |s| s.stress),
+            column("momentum_error_history", "1", |s| s.momentum_error),
+        ];
+        if self.isolated {
+            columns.push(column("disturbance", "m/s", |s| s.disturbance));
+            columns.push(column("disturbance_analytic", "m/s", |s| s.own_flow));
+        } else {
+            columns.push(column("slip_velocity_1", "m/s", |s| s.tracked_slip[0]));
+            columns.push(column("slip_velocity_2", "m/s", |s| s.tracked_slip[1]));
+            columns.push(column("slip_velocity_3", "m/s", |s| s.tracked_slip[2]));
+            columns.push(column("slip_velocity_4", "m/s", |s| s.tracked_slip[3]));
+            columns.push(column("drag_force_1", "N", |s| s.tracked_drag[0]));
+            columns.push(column("drag_force_2", "N", |s| s.tracked_drag[1]));
+            columns.push(column("drag_force_3", "N", |s| s.tracked_drag[2]));
+            columns.push(column("drag_force_4", "N", |s| s.tracked_drag[3]));
+        }
+        Table {
+            name: "time_series",
+            columns,
+        }
+    }
+}
+
+fn counters<L: DragLaw>(simulation: &Simulation<L>) -> Counters {
+    Counters {
+        steps: simulation.steps,
+        grain_steps: simulation.grain_steps,
+        fluid_pairs: simulation.fluid.pairs,
+        coupling_pairs: simulation.exchange.pairs,
+        list_rebuilds: simulation.fluid.rebuilds,
+        porosity_clips: simulation.porosity_clips,
+    }
+}
+
+/// When the speed counts as terminal [s]: 20 to 40 relaxation times for a sphere, the last 4 H/c for
+/// a block; cut to the run.
+pub fn terminal_window(settling: &Settling, sound_speed: Option<f64>) -> (f64, f64) {
+    let relaxation = settling.relaxation_time();
+    match (settling.block, sound_speed) {
+        (Some(_), Some(c)) => {
+            let length = (4.0 * settling.column.height / c).min(0.5 * settling.duration);
+            (settling.duration - length, settling.duration)
+        }
+        _ => (20.0 * relaxation, (40.0 * relaxation).min(settling.duration)),
+    }
+}
+
+/// Mean over a window and the drift across it: the mean of its second half less that of its first.
+pub fn window_mean(times: &[f64], values: &[f64], window: (f64, f64)) -> Option<(f64, f64)> {
+    let inside: Vec<f64> = times
+        .iter()
+        .zip(values)
+        .filter(|(time, _)| (window.0..=window.1 * (1.0 + 1e-12)).contains(*time))
+        .map(|(_, value)| *value)
+        .collect();
+    if inside.len() < 2 {
+        return None;
+    }
+    let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
+    let (first, second) = inside.split_at(inside.len() / 2);
+    Some((mean(&inside), mean(second) - mean(first)))
+}

@@ -1,0 +1,320 @@
+//! Runs a settling scene in the particle fluid.
+
+use super::record::Recorder;
+use super::setup::{POROSITY_LENGTH, Settling};
+use super::{
+    Coupling, Hydrostatics, KernelChoice, PorosityPath, SelfDisturbance, SharpeningChoice, Slip, SphFluid,
+    Start, StressDensity,
+};
+use crate::contact::LinearSpringDashpot;
+use crate::coupling::{Basin, Breathing, Exchange, SelfInducedFlow, grain_porosity};
+use crate::drag::DragLaw;
+use crate::fluid::kernel::Sharpening;
+use crate::fluid::{Continuity, EquationOfState, FluidParticles, Numerics};
+use crate::math::Vec3;
+use crate::outcome::{Control, Failure, FailureKind, Outcome};
+use crate::simulation::{CouplingRules, GrainPorosity, RigidGrains, Simulation, SlipRule};
+
+/// χ of the bulk viscosity, where no artificial viscosity damps compression.
+const BULK_DAMPING: f64 = 0.1;
+/// Overlap over diameter beyond which a run has diverged.
+const OVERLAP_LIMIT: f64 = 0.05;
+/// Steps of the damped start.
+const RELAXATION_STEPS: u64 = 1000;
+
+/// Runs a scene with a particle fluid under one drag law.
+pub fn run<L: DragLaw>(
+    settling: &Settling,
+    sph: &SphFluid,
+    law: L,
+    control: &Control,
+) -> Result<Outcome, Box<Failure>> {
+    let (dt, steps) = settling.steps();
+    let mut simulation = assemble(settling, sph, law);
+    if sph.scheme.start == Start::Relaxed {
+        relax(&mut simulation, dt);
+    }
+    let mut recorder = Recorder::new(settling, sph, dt, steps, &simulation);
+    for step in 0..steps {
+        if (control.stop)() {
+            return Err(failure(
+                FailureKind::Stopped,
+                "stopped from outside".into(),
+                recorder,
+                &simulation,
+            ));
+        }
+        recorder.before(&simulation, step, dt);
+        simulation.step(dt);
+        recorder.after(&simulation, step, dt);
+        if let Some(reason) = divergence(&simulation) {
+            return Err(failure(FailureKind::Diverged, reason, recorder, &simulation));
+        }
+        if step % 16 == 0 {
+            (control.progress)(step as f64 / steps as f64);
+        }
+    }
+    Ok(recorder.finish(&simulation))
+}
+
+fn failure<L: DragLaw>(
+    kind: FailureKind,
+    reason: String,
+    recorder: Recorder,
+    simulation: &Simulation<L>,
+) -> Box<Failure> {
+    Box::new(Failure {
+        kind,
+        reason,
+        partial: recorder.finish(simulation),
+    })
+}
+
+/// Why the state can no longer be trusted, if so.
+fn divergence<L: DragLaw>(simulation: &Simulation<L>) -> Option<String> {
+    let when = format!("at t = {:.6e} s (step {})", simulation.time, simulation.steps);
+    let fluid = &simulation.fluid;
+    if let Some(a) = (0..fluid.len()).find(|&a| !(fluid.velocity[a].norm() + fluid.pressure[a]).is_finite()) {
+        let x = &fluid.anchored_position(a);
+        return Some(format!(
+            "fluid particle {a} is not finite {when}, last near ({:.3e}, {:.3e}, {:.3e}) m",
+            x.x, x.y, x.z
+        ));
+    }
+    if !simulation.grains.velocity.norm().is_finite() {
+        return Some(format!("the grains' velocity is not finite {when}"));
+    }
+    if simulation.report.overlap > OVERLAP_LIMIT {
+        return Some(format!(
+            "a grain overlaps the floor by {:.1} % of its diameter {when}; the limit is {:.0} %",
+            100.0 * simulation.report.overlap,
+            100.0 * OVERLAP_LIMIT
+        ));
+    }
+    simulation.energy_excess().map(|(energy, bound)| {
+        format!("kinetic energy {energy:.3e} J exceeds twice what gravity and the start gave, {bound:.3e} J, {when}")
+    })
+}
+
+/// Builds fluid, grains and coupling in their starting state.
+pub fn assemble<L: DragLaw>(settling: &Settling, sph: &SphFluid, law: L) -> Simulation<L> {
+    let scheme = &sph.scheme;
+    let fluid_weight = match scheme.hydrostatics {
+        Hydrostatics::Split => 0.0,
+        Hydrostatics::Carried => settling.gravity,
+    };
+    let numerics = numerics(settling, sph, fluid_weight);
+    let mut fluid = FluidParticles::lattice(numerics, settling.column.width, settling.column.height);
+    let position = settling.positions();
+    let volume = settling.volume();
+    let weight = match scheme.hydrostatics {
+        Hydrostatics::Split => settling.excess_weight(),
+        Hydrostatics::Carried => settling.mass() * settling.gravity,
+    };
+    let grains = RigidGrains {
+        position,
+        velocity: Vec3::zeros(),
+        diameter: settling.grains.diameter,
+        volume,
+        mass: settling.mass(),
+        weight,
+        held: settling.block.is_some_and(|block| block.held),
+    };
+    let mut exchange = exchange(settling, sph, &fluid, &grains);
+    if scheme.start == Start::Exact {
+        exchange.refresh(&fluid, &grains.position, volume, Vec3::zeros());
+        let porosity: Vec<f64> = exchange.solids.iter().map(|solids| 1.0 - solids).collect();
+        let profile = carried_pressure(settling, &fluid, &exchange.solids, grains.held);
+        let density = numerics.state.density;
+        let height = settling.column.height;
+        fluid.prepare(&porosity, |x| {
+            profile(x.z) + density * fluid_weight * (height - x.z)
+        });
+    }
+    let rules = rules(settling, sph, law, &grains, &fluid);
+    Simulation::new(fluid, grains, exchange, rules)
+}
+
+fn numerics(settling: &Settling, sph: &SphFluid, gravity: f64) -> Numerics {
+    let medium = settling.medium();
+    let spacing = settling.spacing(sph);
+    let sound_speed = settling.sound_speed(sph);
+    let smoothing = 1.5 * spacing;
+    let scheme = &sph.scheme;
+    // The α form of the real viscosity: α = S ν/(c h).
+    let real = scheme.viscosity_constant.map_or(0.0, |s| {
+        s * medium.viscosity / medium.density / (sound_speed * smoothing)
+    });
+    Numerics {
+        spacing,
+        viscosity: if scheme.viscosity_constant.is_some() {
+            0.0
+        } else {
+            medium.viscosity
+        },
+        artificial: scheme.artificial_viscosity.unwrap_or(0.0) + real,
+        bulk: if scheme.artificial_viscosity.is_some() {
+            0.0
+        } else {
+            BULK_DAMPING
+        },
+        lucy: scheme.kernel == KernelChoice::Lucy,
+        gravity,
+        continuity: match (scheme.porosity, scheme.slip) {
+            (PorosityPath::OnePass, Slip::Superficial) => Continuity::MixtureFlux,
+            _ => Continuity::Superficial,
+        },
+        state: EquationOfState {
+            density: medium.density,
+            sound_speed,
+        },
+    }
+}
+
+fn exchange(settling: &Settling, sph: &SphFluid, fluid: &FluidParticles, grains: &RigidGrains) -> Exchange {
+    let sharpening = exchange_sharpening(settling, sph);
+    match sph.scheme.porosity {
+        PorosityPath::OnePass => {
+            Exchange::new(settling.exchange_length(sph), sharpening, fluid, &grains.position)
+        }
+        PorosityPath::TwoPass => Exchange::new(
+            fluid.numerics.smoothing(),
+            Sharpening::NONE,
+            fluid,
+            &grains.position,
+        ),
+    }
+}
+
+fn rules<L: DragLaw>(
+    settling: &Settling,
+    sph: &SphFluid,
+    law: L,
+    grains: &RigidGrains,
+    fluid: &FluidParticles,
+) -> CouplingRules<L> {
+    let scheme = &sph.scheme;
+    let isolated = settling.sphere.is_some();
+    let porosity = match scheme.porosity {
+        PorosityPath::TwoPass => GrainPorosity::Sampled,
+        PorosityPath::OnePass if isolated => GrainPorosity::Known(vec![1.0]),
+        PorosityPath::OnePass => GrainPorosity::Known(grain_porosity(
+            &grains.position,
+            grains.volume,
+            POROSITY_LENGTH * grains.diameter,
+            match scheme.sharpening {
+                SharpeningChoice::Conservative => Sharpening::EDGE_NEUTRAL,
+                SharpeningChoice::None => Sharpening::NONE,
+            },
+            settling.column.width,
+        )),
+    };
+    let slip = match (scheme.slip, scheme.porosity, isolated) {
+        (Slip::Interstitial, _, _) => SlipRule::Interstitial,
+        (Slip::Superficial, PorosityPath::TwoPass, _) => SlipRule::PorosityTimesInterstitial,
+        (Slip::Superficial, PorosityPath::OnePass, true) => SlipRule::Isolated,
+        (Slip::Superficial, PorosityPath::OnePass, false) => SlipRule::MixtureFlux,
+    };
+    let corrected = settling.sphere.is_some_and(|sphere| {
+        sphere.self_disturbance == SelfDisturbance::Corrected && sphere.coupling == Coupling::TwoWay
+    });
+    let speed = settling.expected_speed();
+    let stiffness = scheme.stiffness.unwrap_or_else(|| {
+        LinearSpringDashpot::stiffness_for_overlap(settling.mass(), speed, 0.003 * settling.grains.diameter)
+    });
+    CouplingRules {
+        law,
+        scale: settling.scale(),
+        slip,
+        porosity,
+        intrinsic_stress: scheme.stress_density == StressDensity::Intrinsic,
+        two_way: settling
+            .sphere
+            .is_none_or(|sphere| sphere.coupling == Coupling::TwoWay),
+        own_flow: corrected.then(|| own_flow(settling, sph)),
+        breathing: (scheme.start == Start::Exact).then(|| {
+            Breathing::new(
+                fluid.numerics.state.sound_speed,
+                settling.column.height,
+                fluid.numerics.spacing,
+            )
+        }),
+        floor: LinearSpringDashpot {
+            stiffness,
+            damping: 0.0,
+        },
+        contact_steps: scheme.steps_per_contact,
+        refresh_interval: if isolated { 1 } else { 8 },
+    }
+}
+
+/// A block has edges to keep sharp; a single grain has none, and a sharper kernel only strengthens
+/// the wake that must be taken out again.
+fn exchange_sharpening(settling: &Settling, sph: &SphFluid) -> Sharpening {
+    match (sph.scheme.sharpening, settling.block) {
+        (SharpeningChoice::Conservative, Some(_)) => Sharpening::SECOND_ORDER,
+        _ => Sharpening::NONE,
+    }
+}
+
+/// The wake an isolated grain of the scene leaves in the particle fluid.
+pub fn own_flow(settling: &Settling, sph: &SphFluid) -> SelfInducedFlow {
+    let medium = settling.medium();
+    let sharpening = exchange_sharpening(settling, sph);
+    let basin = Basin {
+        width: settling.column.width,
+        height: settling.column.height,
+        density: medium.density,
+        viscosity: medium.viscosity / medium.density,
+        smoothing: 1.5 * settling.spacing(sph),
+        exchange: settling.exchange_length(sph),
+        sharpening,
+    };
+    SelfInducedFlow::new(&basin, settling.volume())
+}
+
+/// Excess pressure [Pa] at height z [m] of a fluid that carries falling grains at their terminal speed:
+/// p′(z) = Δρ g ∫_z φ dz, zero for held grains and single ones.
+fn carried_pressure(
+    settling: &Settling,
+    fluid: &FluidParticles,
+    solids: &[f64],
+    held: bool,
+) -> impl Fn(f64) -> f64 + use<> {
+    let spacing = fluid.numerics.spacing;
+    let layers = (settling.column.height / spacing).round() as usize;
+    let mut mean = vec![(0.0, 0u32); layers];
+    for (x, solids) in fluid.position.iter().zip(solids) {
+        let bin = &mut mean[((x.z / spacing) as usize).min(layers - 1)];
+        *bin = (bin.0 + solids, bin.1 + 1);
+    }
+    let drive = if held || settling.block.is_none() {
+        0.0
+    } else {
+        settling.excess_weight() / settling.volume()
+    };
+    // Pressure at the layers' middles, from the free surface downward.
+    let mut pressure = vec![0.0; layers];
+    let mut above = 0.0;
+    for layer in (0..layers).rev() {
+        let solids = mean[layer].0 / mean[layer].1.max(1) as f64;
+        pressure[layer] = above + 0.5 * drive * solids * spacing;
+        above += drive * solids * spacing;
+    }
+    move |z| pressure[((z / spacing) as usize).min(layers - 1)]
+}
+
+/// The published start: a lattice without pressure is damped while the grains are held.
+fn relax<L: DragLaw>(simulation: &mut Simulation<L>, dt: f64) {
+    let held = std::mem::replace(&mut simulation.grains.held, true);
+    for _ in 0..RELAXATION_STEPS {
+        simulation.step(dt);
+        simulation
+            .fluid
+            .velocity
+            .iter_mut()
+            .for_each(|velocity| *velocity *= 0.98);
+    }
+    simulation.grains.held = held;
+    simulation.restart_clock();
+}

@@ -1,0 +1,274 @@
+//! From a scene to numbers: lattices, sound speed, time step, steps.
+
+use std::f64::consts::PI;
+
+use super::{
+    Column, ConstantPorosityBlock, Drag, Fluid, Grains, Hydrostatics, Medium, Scene, SingleSphere,
+    SoundSpeed, SphFluid,
+};
+use crate::drag::{CoulsonRichardson, Dallavalle, DiFelice, DragScale, SchillerNaumann, Stokes};
+use crate::math::Vec3;
+
+/// Courant number of the fluid step in terms of h/c.
+pub const COURANT: f64 = 0.4;
+/// Density change of a fluid that passes through a block [-]: it expands by as much on the way, and
+/// that flux adds to the slip, so at one per cent a block of porosity 0.9 falls 0.5 per cent too slowly.
+const BLOCK_COMPRESSION: f64 = 0.004;
+/// Porosity length of a grain class over its diameter [-].
+pub const POROSITY_LENGTH: f64 = 3.0;
+
+/// Calls a generic function with the law a scene names.
+macro_rules! with_law {
+    ($drag:expr, $law:ident => $body:expr) => {
+        match $drag {
+            crate::scene::Drag::Stokes => {
+                let $law = crate::drag::Stokes;
+                $body
+            }
+            crate::scene::Drag::Dallavalle => {
+                let $law = crate::drag::Dallavalle;
+                $body
+            }
+            crate::scene::Drag::SchillerNaumann => {
+                let $law = crate::drag::SchillerNaumann;
+                $body
+            }
+            crate::scene::Drag::DiFelice => {
+                let $law = crate::drag::DiFelice;
+                $body
+            }
+            crate::scene::Drag::CoulsonRichardson => {
+                let $law = crate::drag::CoulsonRichardson;
+                $body
+            }
+        }
+    };
+}
+pub(super) use with_law;
+
+/// What both scenes share, by reference.
+#[derive(Clone, Copy)]
+pub struct Settling<'a> {
+    pub grains: &'a Grains,
+    pub drag: Drag,
+    pub fluid: &'a Fluid,
+    pub column: &'a Column,
+    pub duration: f64,
+    pub gravity: f64,
+    /// The block, when there is one.
+    pub block: Option<&'a ConstantPorosityBlock>,
+    pub sphere: Option<&'a SingleSphere>,
+}
+
+impl<'a> Settling<'a> {
+    pub fn of(scene: &'a Scene) -> Self {
+        match scene {
+            Scene::SingleSphere(s) => Settling {
+                grains: &s.grains,
+                drag: s.drag,
+                fluid: &s.fluid,
+                column: &s.column,
+                duration: s.duration,
+                gravity: s.gravity,
+                block: None,
+                sphere: Some(s),
+            },
+            Scene::ConstantPorosityBlock(b) => Settling {
+                grains: &b.grains,
+                drag: b.drag,
+                fluid: &b.fluid,
+                column: &b.column,
+                duration: b.duration,
+                gravity: b.gravity,
+                block: Some(b),
+                sphere: None,
+            },
+        }
+    }
+
+    pub fn medium(&self) -> Medium {
+        match self.fluid {
+            Fluid::Still(medium) | Fluid::Column(medium) => *medium,
+            Fluid::Sph(sph) => sph.medium,
+        }
+    }
+
+    pub fn sph(&self) -> Option<&'a SphFluid> {
+        match self.fluid {
+            Fluid::Sph(sph) => Some(sph),
+            _ => None,
+        }
+    }
+
+    pub fn scale(&self) -> DragScale {
+        let medium = self.medium();
+        DragScale {
+            diameter: self.grains.diameter,
+            density: medium.density,
+            viscosity: medium.viscosity,
+        }
+    }
+
+    /// Volume of a grain [m³].
+    pub fn volume(&self) -> f64 {
+        PI / 6.0 * self.grains.diameter.powi(3)
+    }
+
+    pub fn mass(&self) -> f64 {
+        self.grains.density * self.volume()
+    }
+
+    /// Weight less buoyancy of one grain [N].
+    pub fn excess_weight(&self) -> f64 {
+        (self.grains.density - self.medium().density) * self.volume() * self.gravity
+    }
+
+    /// Porosity the grains settle at [-].
+    pub fn porosity(&self) -> f64 {
+        self.block.map_or(1.0, |block| block.porosity)
+    }
+
+    /// Settling speed expected from the force balance [m/s].
+    pub fn expected_speed(&self) -> f64 {
+        let force = self.excess_weight().abs() * self.porosity();
+        if force == 0.0 {
+            return 0.0;
+        }
+        with_law!(self.drag, law => self.scale().balance(&law, force, self.porosity()))
+    }
+
+    /// Stokes relaxation time m/(3πμd) [s].
+    pub fn relaxation_time(&self) -> f64 {
+        self.mass() / (3.0 * PI * self.medium().viscosity * self.grains.diameter)
+    }
+
+    /// Particle spacing [m] of an sph fluid, adjusted to divide the width.
+    pub fn spacing(&self, sph: &SphFluid) -> f64 {
+        let wanted = sph.spacing_over_diameter * self.grains.diameter;
+        self.column.width / (self.column.width / wanted).round().max(1.0)
+    }
+
+    /// Largest excess pressure the grains can build up [Pa].
+    pub fn excess_pressure(&self) -> f64 {
+        self.block.map_or(0.0, |block| {
+            (1.0 - block.porosity) * self.excess_weight().abs() / self.volume() * self.thickness(block)
+        })
+    }
+
+    /// Thickness of the block [m]: layers times vertical pitch.
+    pub fn thickness(&self, block: &ConstantPorosityBlock) -> f64 {
+        block.layers as f64 * self.vertical_pitch(block)
+    }
+
+    fn vertical_pitch(&self, block: &ConstantPorosityBlock) -> f64 {
+        let pitch = self.column.width / block.grains_per_side as f64;
+        self.volume() / ((1.0 - block.porosity) * pitch * pitch)
+    }
+
+    /// Exchange length h_x [m].
+    pub fn exchange_length(&self, sph: &SphFluid) -> f64 {
+        (POROSITY_LENGTH * self.grains.diameter).max(1.2 * self.spacing(sph))
+    }
+
+    /// Sound speed [m/s]: ten times any speed, one per cent of density change, and pressure that
+    /// settles around a grain within a third of its relaxation time.
+    pub fn sound_speed(&self, sph: &SphFluid) -> f64 {
+        match sph.scheme.sound_speed {
+            SoundSpeed::Value(value) => value,
+            SoundSpeed::FreeFall => 20.0 * (2.0 * self.gravity * self.column.height).sqrt(),
+            SoundSpeed::Automatic => {
+                let density = self.medium().density;
+                let carried = match sph.scheme.hydrostatics {
+                    Hydrostatics::Split => 0.0,
+                    Hydrostatics::Carried => density * self.gravity * self.column.height,
+                };
+                let compression = (self.excess_pressure() / (BLOCK_COMPRESSION * density)
+                    + carried / (0.01 * density))
+                    .sqrt();
+                let equilibrium = match self.block {
+                    None => 1.5 * self.exchange_length(sph) / self.relaxation_time(),
+                    Some(_) => 0.0,
+                };
+                compression.max(10.0 * self.expected_speed()).max(equilibrium)
+            }
+        }
+    }
+
+    /// Longest safe fluid step [s] and the limit that sets it.
+    pub fn step_limit(&self, sph: &SphFluid) -> (f64, &'static str) {
+        let medium = self.medium();
+        let h = 1.5 * self.spacing(sph);
+        let acoustic = COURANT * h / self.sound_speed(sph);
+        let nu = medium.viscosity / medium.density
+            + sph.scheme.artificial_viscosity.unwrap_or(0.0) * self.sound_speed(sph) * h / 9.0;
+        let viscous = 0.125 * h * h / nu;
+        let coupling = 0.2 * self.relaxation_time();
+        [
+            (acoustic, "0.25 h/c"),
+            (viscous, "0.125 h²/ν"),
+            (coupling, "0.2 m/(3πμd)"),
+        ]
+        .into_iter()
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .unwrap_or((acoustic, "0.25 h/c"))
+    }
+
+    /// Step [s] of the run and the number of steps.
+    pub fn steps(&self) -> (f64, u64) {
+        let wanted = match self.sph() {
+            Some(sph) => sph.scheme.time_step.unwrap_or(self.step_limit(sph).0),
+            None => self.relaxation_time() / 50.0,
+        };
+        let steps = (self.duration / wanted).ceil().max(1.0);
+        (self.duration / steps, steps as u64)
+    }
+
+    /// Where the grains start [m].
+    pub fn positions(&self) -> Vec<Vec3> {
+        if let Some(sphere) = self.sphere {
+            let middle = 0.5 * self.column.width;
+            return vec![Vec3::new(
+                middle,
+                middle,
+                sphere.release_height * self.column.height,
+            )];
+        }
+        let Some(block) = self.block else {
+            return Vec::new();
+        };
+        let side = block.grains_per_side as usize;
+        let (pitch, rise) = (self.column.width / side as f64, self.vertical_pitch(block));
+        let bottom = 0.5 * self.column.height;
+        (0..block.layers as usize * side * side)
+            .map(|i| {
+                let (x, y, layer) = (i % side, i / side % side, i / side / side);
+                Vec3::new(
+                    (x as f64 + 0.5) * pitch,
+                    (y as f64 + 0.5) * pitch,
+                    bottom + (layer as f64 + 0.5) * rise,
+                )
+            })
+            .collect()
+    }
+
+    /// Fluid particles, wall layers left out.
+    pub fn fluid_particles(&self) -> u64 {
+        self.sph().map_or(0, |sph| {
+            let spacing = self.spacing(sph);
+            let side = (self.column.width / spacing).round() as u64;
+            side * side * (self.column.height / spacing).round() as u64
+        })
+    }
+}
+
+/// Isolated terminal speed [m/s] under a law, used by `describe`.
+pub fn isolated_speed(settling: &Settling) -> f64 {
+    let force = settling.excess_weight().abs();
+    match settling.drag {
+        Drag::Stokes => settling.scale().balance(&Stokes, force, 1.0),
+        Drag::Dallavalle => settling.scale().balance(&Dallavalle, force, 1.0),
+        Drag::SchillerNaumann => settling.scale().balance(&SchillerNaumann, force, 1.0),
+        Drag::DiFelice => settling.scale().balance(&DiFelice, force, 1.0),
+        Drag::CoulsonRichardson => settling.scale().balance(&CoulsonRichardson, force, 1.0),
+    }
+}
