@@ -1,0 +1,432 @@
+//! Study files: finding, reading and checking them.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use super::axes::{self, WrittenAxis, WrittenScene};
+use super::model::{AxisValue, Study, Work};
+use super::nearest::advice;
+use super::plan::{self, Exclusion, Ingredients};
+use super::problem::{Problems, StudyError};
+use super::shape::{Place, Shapes};
+use super::statements::{self, Context};
+use super::yaml::{self, Node, Value};
+
+/// Folder of the studies that are called by name.
+const FOLDER: &str = "studies";
+/// Largest study file [bytes].
+const LARGEST: u64 = 1 << 20;
+const MOST_SEEDS: u64 = 10_000;
+
+/// A line of `kynch list`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Entry {
+    pub name: String,
+    pub meaning: String,
+}
+
+/// The file behind a study name: `studies/NAME.yaml`, or the path itself when it is one.
+///
+/// # Errors
+/// When there is no such file; the message names the nearest study.
+pub fn find(name: &str) -> Result<PathBuf, StudyError> {
+    let path = PathBuf::from(name);
+    let is_path = name.ends_with(".yaml") || name.ends_with(".yml") || path.components().count() > 1;
+    if is_path && path.exists() {
+        return Ok(path);
+    }
+    let named = Path::new(FOLDER).join(format!("{name}.yaml"));
+    if !is_path || named.is_file() {
+        if named.is_file() {
+            return Ok(named);
+        }
+        let entries = list();
+        let names: Vec<&str> = entries.iter().map(|entry| entry.name.as_str()).collect();
+        let message = format!("there is no study `{name}`");
+        return Err(StudyError::of_file(&named, &message, &advice(name, &names)));
+    }
+    Err(StudyError::of_file(
+        &path,
+        "there is no such file",
+        "check the path; a name alone is looked up in studies/",
+    ))
+}
+
+/// Parses, checks and expands a study file.
+///
+/// # Errors
+/// Everything wrong with it, all at once.
+pub fn load(path: &Path) -> Result<Study, StudyError> {
+    parse(path, &read(path)?)
+}
+
+fn read(path: &Path) -> Result<String, StudyError> {
+    let fault = |message: &str, help: &str| StudyError::of_file(path, message, help);
+    let about = match fs::metadata(path) {
+        Ok(about) => about,
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            return Err(fault(
+                "there is no such file",
+                "check the path; a name alone is looked up in studies/",
+            ));
+        }
+        Err(error) => {
+            return Err(fault(
+                &format!("the file cannot be read: {error}"),
+                "check its permissions",
+            ));
+        }
+    };
+    if about.is_dir() {
+        return Err(fault(
+            "this is a directory, not a study file",
+            "name a file in it",
+        ));
+    }
+    if !about.is_file() {
+        return Err(fault("this is not a plain file", "write the study to a file"));
+    }
+    if about.len() > LARGEST {
+        let size = about.len() as f64 / 1e6;
+        let message = format!("the file is {size:.1} MB large, a study has at most 1 MB");
+        return Err(fault(&message, "is this really a study file?"));
+    }
+    let bytes = match fs::read(path) {
+        Ok(bytes) => bytes,
+        Err(error) => {
+            return Err(fault(
+                &format!("the file cannot be read: {error}"),
+                "check its permissions",
+            ));
+        }
+    };
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        let line = 1 + error.as_bytes()[..at]
+            .iter()
+            .filter(|byte| **byte == b'\n')
+            .count();
+        fault(
+            &format!("the file is not UTF-8 text: line {line} holds a byte that is not"),
+            "save it as UTF-8",
+        )
+    })
+}
+
+/// Every study below `studies/`, with its question.
+pub fn list() -> Vec<Entry> {
+    let mut entries = Vec::new();
+    gather(Path::new(FOLDER), "", &mut entries);
+    entries.sort_by(|left, right| left.name.cmp(&right.name));
+    entries
+}
+
+fn gather(folder: &Path, prefix: &str, entries: &mut Vec<Entry>) {
+    for item in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let path = item.path();
+        let stem = path
+            .file_stem()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
+        let is_folder = item.file_type().is_ok_and(|kind| kind.is_dir());
+        if is_folder && prefix.len() < 200 {
+            gather(&path, &format!("{prefix}{stem}/"), entries);
+        } else if path.extension().is_some_and(|extension| extension == "yaml") {
+            entries.push(Entry {
+                name: format!("{prefix}{stem}"),
+                meaning: question(&path),
+            });
+        }
+    }
+}
+
+fn question(path: &Path) -> String {
+    let text = read(path).unwrap_or_default();
+    let tree = yaml::parse(&text, &mut Problems::default());
+    match tree
+        .as_ref()
+        .and_then(|tree| tree.get("question"))
+        .map(|node| &node.value)
+    {
+        Some(Value::Text(question)) => question.clone(),
+        _ => "(cannot be read)".to_owned(),
+    }
+}
+
+/// Every scene a study may name, with one line each.
+pub fn scenes() -> Vec<Entry> {
+    let schema = super::schema();
+    let variants = schema["$defs"]["SceneSpec"]["oneOf"]
+        .as_array()
+        .into_iter()
+        .flatten();
+    variants
+        .filter_map(|variant| {
+            let name = variant["properties"].as_object()?.keys().next()?.clone();
+            let meaning = variant["description"]
+                .as_str()
+                .unwrap_or_default()
+                .replace('\n', " ");
+            Some(Entry { name, meaning })
+        })
+        .collect()
+}
+
+/// Checks and expands the text of a study; `path` gives it its name.
+///
+/// # Errors
+/// Everything wrong with it, all at once.
+pub fn parse(path: &Path, text: &str) -> Result<Study, StudyError> {
+    let mut problems = Problems::default();
+    let study = yaml::parse(text, &mut problems).and_then(|tree| build(path, &tree, &mut problems));
+    match study {
+        Some(study) if problems.is_empty() => Ok(study),
+        _ => Err(StudyError::new(path, text, problems)),
+    }
+}
+
+fn build(path: &Path, root: &Node, problems: &mut Problems) -> Option<Study> {
+    let shapes = Shapes::new();
+    if !matches!(root.value, Value::Map(_)) {
+        let message = format!("a study is a map of `name: value`, this is {}", root.kind());
+        problems.add(&root.span, "", message, "begin with `question:`");
+        return None;
+    }
+    shapes.check(
+        root,
+        shapes.study(),
+        &Place {
+            path: String::new(),
+            key: Some(first_key(root)),
+        },
+        problems,
+    );
+    let written = written_scenes(root, problems);
+    let usable: Vec<bool> = written
+        .iter()
+        .map(|scene| clean(&scene.node, shapes.of("SceneSpec"), &shapes))
+        .collect();
+    let scenes_hold = !written.is_empty() && usable.iter().all(|usable| *usable);
+    let axes_hold = root.get("vary").is_none_or(|vary| {
+        matches!(vary.value, Value::Map(_))
+            && vary
+                .entries()
+                .iter()
+                .all(|(_, axis)| clean(axis, shapes.of("AxisSpec"), &shapes))
+    });
+    let seeds = seeds(root, problems);
+    if !scenes_hold || !axes_hold {
+        check_sound_scenes(&written, &usable, &shapes, problems);
+        return None;
+    }
+    let axes = axes::read(root, &written, &shapes, problems);
+    let Some(axes) = axes else {
+        check_sound_scenes(&written, &usable, &shapes, problems);
+        return None;
+    };
+    let works: BTreeMap<String, Work> = written
+        .iter()
+        .filter_map(|scene| Some((scene.name.clone(), plan::base(scene)?)))
+        .collect();
+    let exclusions = exclusions(root, &written, &axes, problems);
+    let seeds = seeds.unwrap_or_else(|| vec![1]);
+    let ingredients = Ingredients {
+        scenes: &written,
+        axes: &axes,
+        seeds: &seeds,
+        exclusions: &exclusions,
+        shapes: &shapes,
+    };
+    let plan = plan::expand(&ingredients, problems);
+    let context = Context {
+        works: &works,
+        axes: &axes,
+        plan: &plan,
+        shapes: &shapes,
+    };
+    let expect = statements::expectations(root, &context, problems);
+    let figures = statements::figures(root, &context, problems);
+    let observe = statements::observe(root, &context, &expect, &figures, problems);
+    Some(Study {
+        name: path
+            .file_stem()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned(),
+        path: path.to_owned(),
+        question: root
+            .get("question")
+            .map(|node| node.shown_whole())
+            .unwrap_or_default(),
+        scenes: written.iter().map(|scene| scene.name.clone()).collect(),
+        axes: axes.into_iter().map(|axis| axis.axis).collect(),
+        seeds,
+        observe,
+        expect,
+        figures,
+        plan,
+    })
+}
+
+/// Physical faults of sound scenes are reported though something else stands in the way of a plan.
+fn check_sound_scenes(written: &[WrittenScene], usable: &[bool], shapes: &Shapes, problems: &mut Problems) {
+    for (scene, _) in written.iter().zip(usable).filter(|(_, usable)| **usable) {
+        let scenes = std::slice::from_ref(scene);
+        let ingredients = Ingredients {
+            scenes,
+            axes: &[],
+            seeds: &[1],
+            exclusions: &[],
+            shapes,
+        };
+        plan::expand(&ingredients, problems);
+    }
+}
+
+fn first_key(root: &Node) -> Range<usize> {
+    root.entries()
+        .first()
+        .map_or(root.span.clone(), |(key, _)| key.span.clone())
+}
+
+fn clean(node: &Node, schema: &serde_json::Value, shapes: &Shapes) -> bool {
+    let mut problems = Problems::default();
+    shapes.check(node, schema, &Place::root(), &mut problems);
+    problems.is_empty()
+}
+
+fn written_scenes(root: &Node, problems: &mut Problems) -> Vec<WrittenScene> {
+    let scene = |name: &str, path: String, key: &yaml::Key, node: &Node| WrittenScene {
+        name: name.to_owned(),
+        path,
+        key: key.span.clone(),
+        node: node.clone(),
+    };
+    match (root.entry("scene"), root.entry("scenes")) {
+        (Some((key, node)), None) => vec![scene("scene", "scene".to_owned(), key, node)],
+        (None, Some((key, node))) => {
+            if node.entries().is_empty() && matches!(node.value, Value::Map(_)) {
+                problems.add(
+                    &key.span,
+                    "scenes",
+                    "`scenes` names no scene",
+                    "add one, or use `scene:`",
+                );
+            }
+            for (key, _) in node.entries().iter().filter(|(key, _)| !axes::is_name(&key.name)) {
+                let message = format!("`{}` is not a name", key.name);
+                let help = "use small letters, digits and _, beginning with a letter";
+                problems.add(&key.span, &format!("scenes.{}", key.name), message, help);
+            }
+            let entries = node.entries().iter();
+            entries
+                .map(|(key, node)| scene(&key.name, format!("scenes.{}", key.name), key, node))
+                .collect()
+        }
+        (Some(_), Some((key, _))) => {
+            let message = "`scene` and `scenes` are both given";
+            problems.add(
+                &key.span,
+                "scenes",
+                message,
+                "move the one under `scene` to a name under `scenes`",
+            );
+            Vec::new()
+        }
+        (None, None) => {
+            let help = "add `scene:` with one of single_sphere, constant_porosity_block, rehearsal";
+            problems.add(
+                &first_key(root),
+                "scene",
+                "`scene` is missing from the study",
+                help,
+            );
+            Vec::new()
+        }
+    }
+}
+
+/// Seeds of the study; `None` when they are at fault.
+fn seeds(root: &Node, problems: &mut Problems) -> Option<Vec<u64>> {
+    let Some(node) = root.get("seeds") else {
+        return Some(vec![1]);
+    };
+    let whole = |node: &Node| match node.value {
+        Value::Number(number) if number >= 0.0 && number.fract() == 0.0 && number < 9e15 => {
+            Some(number as u64)
+        }
+        _ => None,
+    };
+    if let Value::List(elements) = &node.value {
+        let seeds: Vec<u64> = elements.iter().map(whole).collect::<Option<_>>()?;
+        for (position, seed) in seeds
+            .iter()
+            .enumerate()
+            .filter(|(at, seed)| seeds[..*at].contains(seed))
+        {
+            let message = format!("the seed {seed} is given twice");
+            problems.add(&elements[position].span, "seeds", message, "keep one");
+        }
+        return Some(seeds);
+    }
+    let count = whole(node)?;
+    if count == 0 || count > MOST_SEEDS {
+        let message = format!("`seeds` is {count}, it must lie between 1 and {MOST_SEEDS}");
+        problems.add(
+            &node.span,
+            "seeds",
+            message,
+            "a number N stands for the seeds 1 to N",
+        );
+        return None;
+    }
+    Some((1..=count).collect())
+}
+
+fn exclusions(
+    root: &Node,
+    scenes: &[WrittenScene],
+    axes: &[WrittenAxis],
+    problems: &mut Problems,
+) -> Vec<(Range<usize>, Exclusion)> {
+    let mut known: Vec<&str> = vec!["scene"];
+    known.extend(axes.iter().map(|axis| axis.axis.name.as_str()));
+    let names: Vec<AxisValue> = scenes
+        .iter()
+        .map(|scene| AxisValue::Word(scene.name.clone()))
+        .collect();
+    let mut all = Vec::new();
+    for (index, entry) in root
+        .get("exclude")
+        .map(Node::elements)
+        .unwrap_or_default()
+        .iter()
+        .enumerate()
+    {
+        let before = problems.len();
+        let mut exclusion = Vec::new();
+        for (key, node) in entry.entries() {
+            let field = format!("exclude[{index}].{}", key.name);
+            let axis = axes.iter().find(|axis| axis.axis.name == key.name);
+            let admitted = match (key.name.as_str(), axis) {
+                ("scene", _) => &names,
+                (_, Some(axis)) => &axis.axis.values,
+                _ => {
+                    let message = format!("`{}` is neither `scene` nor an axis", key.name);
+                    problems.add(&key.span, &field, message, advice(&key.name, &known));
+                    continue;
+                }
+            };
+            let dimension = axis.and_then(|axis| axis.dimension);
+            let values = statements::admitted(node, dimension, admitted, &field, problems);
+            exclusion.push((key.name.clone(), values));
+        }
+        if problems.len() == before && !exclusion.is_empty() {
+            all.push((entry.span.clone(), exclusion));
+        }
+    }
+    all
+}
