@@ -287,6 +287,7 @@ fn bind_everywhere<'a>(
 /// Checks a value against the field it goes to. A word for a choice with fields is checked at the
 /// point, once the fields it shares are known.
 fn check_value(value: &Node, schema: &Schema, field: &str, shapes: &Shapes, problems: &mut Problems) {
+    let name = field.split('.').nth(1).unwrap_or_default();
     let variants = shapes.variants(schema);
     let word = matches!(&value.value, Value::Text(word)
         if variants.iter().any(|variant| variant.name == word && variant.fields.is_some()));
@@ -298,6 +299,7 @@ fn check_value(value: &Node, schema: &Schema, field: &str, shapes: &Shapes, prob
             &Place {
                 path: field.to_owned(),
                 key,
+                called: Some(name.to_owned()),
             },
             problems,
         );

@@ -201,6 +201,7 @@ fn build(path: &Path, root: &Node, problems: &mut Problems) -> Option<Study> {
         &Place {
             path: String::new(),
             key: Some(first_key(root)),
+            called: None,
         },
         problems,
     );

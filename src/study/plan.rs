@@ -69,6 +69,17 @@ pub fn expand(ingredients: &Ingredients, problems: &mut Problems) -> Plan {
         }
         findings.report(problems);
     }
+    if let (true, Some((span, _))) = (
+        plan.points.is_empty() && problems.is_empty(),
+        ingredients.exclusions.first(),
+    ) {
+        problems.add(
+            span,
+            "exclude",
+            "every point of the study is left out",
+            "exclude less",
+        );
+    }
     for ((span, _), used) in ingredients.exclusions.iter().zip(used) {
         if !used {
             problems.add(
@@ -194,6 +205,7 @@ fn point(
     let place = Place {
         path: scene.path.clone(),
         key: Some(scene.key.clone()),
+        called: None,
     };
     let before = problems.len();
     ingredients
@@ -206,6 +218,7 @@ fn point(
         Ok(spec) => spec,
         Err(error) => return problems.add(&scene.key, &scene.path, error.to_string(), "correct the scene"),
     };
+    let twice = given_twice(&spec);
     let spec = work::completed(spec);
     let work = work::work(&spec);
     let label = axes
@@ -214,7 +227,7 @@ fn point(
         .collect::<Vec<_>>()
         .join(" ");
     findings.checked += 1;
-    for fault in faults(&work) {
+    for fault in faults(&work).into_iter().chain(twice) {
         findings.add(fault, scene, &tree, &label);
     }
     let settings = work::settings(&spec);
@@ -228,6 +241,18 @@ fn point(
             work: work.clone(),
         });
     }
+}
+
+/// A block is as thick as `thickness` or as `layers` say, not both.
+fn given_twice(spec: &SceneSpec) -> Option<Fault> {
+    let SceneSpec::ConstantPorosityBlock(block) = spec else {
+        return None;
+    };
+    (block.thickness.is_some() && block.layers.is_some()).then(|| Fault {
+        path: "layers".to_owned(),
+        message: "`thickness` and `layers` are both given".to_owned(),
+        help: "keep one".to_owned(),
+    })
 }
 
 /// Faults of a scene's points, each distinct one with the points that have it.

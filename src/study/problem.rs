@@ -119,7 +119,7 @@ impl StudyError {
         let handler = GraphicalReportHandler::new_themed(theme)
             .with_width(width.max(40))
             .with_links(false)
-            .with_context_lines(0);
+            .with_context_lines(1);
         let mut out = String::new();
         for problem in self.problems.iter().take(MOST_SHOWN) {
             let shown = Shown {

@@ -26,6 +26,8 @@ pub struct Variant<'a> {
 pub struct Place {
     pub path: String,
     pub key: Option<Range<usize>>,
+    /// What messages call it, where that is not the last name of the path.
+    pub called: Option<String>,
 }
 
 impl Place {
@@ -33,6 +35,7 @@ impl Place {
         Place {
             path: String::new(),
             key: None,
+            called: None,
         }
     }
 
@@ -42,19 +45,25 @@ impl Place {
         } else {
             format!("{}.{name}", self.path)
         };
-        Place { path, key }
+        Place {
+            path,
+            key,
+            called: None,
+        }
     }
 
     fn element(&self, index: usize) -> Place {
         Place {
             path: format!("{}[{index}]", self.path),
             key: None,
+            called: None,
         }
     }
 
     fn name(&self) -> &str {
-        let path = self.path.split('[').next().unwrap_or_default();
-        path.rsplit('.').next().unwrap_or_default()
+        let last = self.path.rsplit('.').next().unwrap_or_default();
+        let last = last.split('[').next().unwrap_or_default();
+        self.called.as_deref().unwrap_or(last)
     }
 }
 

@@ -215,18 +215,15 @@ pub fn admitted(
     let shown: Vec<&str> = distinct(shown.iter().map(String::as_str));
     let mut values = Vec::new();
     for node in nodes {
-        let value = match dimension.or(any_dimension(node)) {
-            Some(dimension) => si_value(node, Some(dimension)),
-            None => si_value(node, None),
-        };
+        let value = si_value(node, dimension.or_else(|| any_dimension(node)));
         if !admitted.contains(&value) {
             let message = format!("no point has the value {}", node.shown());
-            problems.add(
-                &node.span,
-                field,
-                message,
-                format!("there are {} (SI units)", shown.join(", ")),
-            );
+            let numbers = admitted.iter().any(|value| matches!(value, AxisValue::Number(_)));
+            let help = match numbers {
+                true => format!("there are {} (SI units)", shown.join(", ")),
+                false => advice(&node.shown(), &shown),
+            };
+            problems.add(&node.span, field, message, help);
         }
         values.push(value);
     }
@@ -515,7 +512,7 @@ impl Reader<'_, '_> {
 
     fn group(&mut self, name: &str) {
         let known = self.parameters();
-        if !known.iter().any(|other| other == name) {
+        if !self.context.plan.points.is_empty() && !known.iter().any(|other| other == name) {
             let known: Vec<&str> = known.iter().map(String::as_str).collect();
             let message = format!("`{name}` is neither `scene`, nor an axis, nor a field of a scene");
             self.fault("group", message, advice(name, &known));
@@ -669,6 +666,9 @@ impl Reader<'_, '_> {
                 continue;
             }
             let Some((dimension, known)) = self.values_of(&key.name) else {
+                if self.context.plan.points.is_empty() {
+                    continue;
+                }
                 let known = self.parameters();
                 let known: Vec<&str> = known.iter().map(String::as_str).collect();
                 let message = format!(

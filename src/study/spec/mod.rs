@@ -16,7 +16,10 @@ use statement::{ExpectationSpec, FigureSpec};
 
 /// A study: a question, the scenes it is asked of, what varies, what is observed and expected.
 #[derive(Debug, Deserialize, JsonSchema)]
-#[allow(dead_code)]
+#[expect(
+    dead_code,
+    reason = "gives the schema; values are read from the tree, with their positions"
+)]
 pub struct StudySpec {
     /// The question the study answers, one sentence.
     pub question: String,
@@ -53,7 +56,10 @@ fn one_seed() -> OneOrMore<u64> {
 
 /// A varied parameter.
 #[derive(Debug, Deserialize, JsonSchema)]
-#[allow(dead_code)]
+#[expect(
+    dead_code,
+    reason = "gives the schema; values are read from the tree, with their positions"
+)]
 pub struct AxisSpec {
     /// Where it acts: `scene.column.width` in every scene that has it, `scenes.NAME.column.width` in one.
     pub path: OneOrMore<String>,

@@ -27,6 +27,7 @@ pub struct Common {
     pub id: Option<String>,
     /// Which runs it is about.
     #[serde(default, rename = "where")]
+    #[expect(dead_code, reason = "read from the tree, where values have positions")]
     pub selection: Where,
     /// Claims that it settles.
     #[serde(default)]
@@ -107,6 +108,7 @@ pub struct Caption {
     pub title: Option<String>,
     /// Which runs it shows.
     #[serde(default, rename = "where")]
+    #[expect(dead_code, reason = "read from the tree, where values have positions")]
     pub selection: Where,
     /// Thesis figure it stands beside.
     pub thesis: Option<String>,
