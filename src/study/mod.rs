@@ -1,11 +1,13 @@
 //! From a YAML file to a [`Study`](model::Study): parse, check, expand.
 
+mod assemble;
 mod axes;
 mod faults;
 mod file;
 pub mod model;
 mod names;
 mod nearest;
+mod path;
 mod plan;
 mod problem;
 mod shape;
@@ -15,7 +17,8 @@ mod units;
 mod work;
 mod yaml;
 
-pub use file::{Entry, find, list, load, parse, scenes};
+pub use assemble::parse;
+pub use file::{Entry, find, list, load, scenes};
 pub use problem::{Problem, StudyError};
 
 /// JSON Schema of a study file.

@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::axes::{self, WrittenAxis, WrittenScene};
+use super::axes::{WrittenAxis, WrittenScene};
 use super::faults::{Fault, faults};
 use super::model::{AxisValue, Plan, Point, Work};
+use super::path;
 use super::problem::Problems;
 use super::shape::{Place, Shapes};
 use super::spec::scene::SceneSpec;
@@ -144,10 +145,10 @@ fn chosen(choice: &[(usize, usize)], scene: &WrittenScene, ingredients: &Ingredi
     for (path, axis, value) in steps {
         let segments: Vec<&str> = path.iter().map(String::as_str).collect();
         // Another axis may have chosen a model without this field: the axis then does not bind.
-        let Ok((_, schema)) = axes::bind(ingredients.shapes, &tree, &segments) else {
+        let Ok((_, schema)) = path::bind(ingredients.shapes, &tree, &segments) else {
             continue;
         };
-        axes::put(
+        path::put(
             &mut tree,
             path,
             &ingredients.axes[axis].nodes[value],
