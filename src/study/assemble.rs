@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use super::axes::{self, WrittenAxis, WrittenScene};
-use super::model::{AxisValue, Study, Work};
+use super::model::{AxisValue, Plan, Study, Work};
 use super::nearest::advice;
 use super::plan::{self, Exclusion, Ingredients};
 use super::problem::{Problems, StudyError};
@@ -59,13 +59,9 @@ fn build(path: &Path, root: &Node, problems: &mut Problems) -> Option<Study> {
                 .all(|(_, axis)| clean(axis, shapes.of("AxisSpec"), &shapes))
     });
     let seeds = seeds(root, problems);
-    if !scenes_hold || !axes_hold {
-        check_sound_scenes(&written, &usable, &shapes, problems);
-        return None;
-    }
-    let axes = axes::read(root, &written, &shapes, problems);
-    let Some(axes) = axes else {
-        check_sound_scenes(&written, &usable, &shapes, problems);
+    let axes = (scenes_hold && axes_hold).then(|| axes::read(root, &written, &shapes, problems));
+    let Some(axes) = axes.flatten() else {
+        check_the_rest(root, &written, &usable, &shapes, problems);
         return None;
     };
     let works: BTreeMap<String, Work> = written
@@ -85,6 +81,7 @@ fn build(path: &Path, root: &Node, problems: &mut Problems) -> Option<Study> {
     let context = Context {
         works: &works,
         axes: &axes,
+        complete: true,
         plan: &plan,
         shapes: &shapes,
     };
@@ -112,12 +109,18 @@ fn build(path: &Path, root: &Node, problems: &mut Problems) -> Option<Study> {
     })
 }
 
-/// Physical faults of sound scenes are reported though something else stands in the way of a plan.
-fn check_sound_scenes(written: &[WrittenScene], usable: &[bool], shapes: &Shapes, problems: &mut Problems) {
+/// What can still be said when something stands in the way of a plan: physical faults of sound
+/// scenes, and statements as far as they do not depend on scenes and axes.
+fn check_the_rest(
+    root: &Node,
+    written: &[WrittenScene],
+    usable: &[bool],
+    shapes: &Shapes,
+    problems: &mut Problems,
+) {
     for (scene, _) in written.iter().zip(usable).filter(|(_, usable)| **usable) {
-        let scenes = std::slice::from_ref(scene);
         let ingredients = Ingredients {
-            scenes,
+            scenes: std::slice::from_ref(scene),
             axes: &[],
             seeds: &[1],
             exclusions: &[],
@@ -125,6 +128,15 @@ fn check_sound_scenes(written: &[WrittenScene], usable: &[bool], shapes: &Shapes
         };
         plan::expand(&ingredients, problems);
     }
+    let context = Context {
+        works: &BTreeMap::new(),
+        axes: &[],
+        complete: false,
+        plan: &Plan::default(),
+        shapes,
+    };
+    statements::expectations(root, &context, problems);
+    statements::figures(root, &context, problems);
 }
 
 fn first_key(root: &Node) -> Range<usize> {

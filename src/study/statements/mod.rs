@@ -25,6 +25,8 @@ pub struct Context<'a> {
     /// Scenes by name, without their axes.
     pub works: &'a BTreeMap<String, Work>,
     pub axes: &'a [WrittenAxis],
+    /// Whether scenes and axes could be read; if not, only what does not depend on them is checked.
+    pub complete: bool,
     /// Without points when a point is at fault.
     pub plan: &'a Plan,
     pub shapes: &'a Shapes,

@@ -117,6 +117,9 @@ impl Reader<'_, '_> {
 
     /// Checks that a name is an axis of numbers with at least two values.
     pub(super) fn numeric_axis(&mut self, name: &str) {
+        if !self.context.complete {
+            return;
+        }
         let names: Vec<&str> = self
             .context
             .axes

@@ -52,7 +52,7 @@ impl Reader<'_, '_> {
     /// Reads `where`.
     pub(super) fn selection(&mut self) -> Selection {
         let mut selection = Selection::default();
-        let Some(node) = self.written.fields.get("where") else {
+        let Some(node) = self.written.fields.get("where").filter(|_| self.context.complete) else {
             return selection;
         };
         let before = self.problems.len();
