@@ -66,6 +66,43 @@ pub struct Point {
     pub work: Work,
 }
 
+impl Point {
+    /// Value of a parameter: `scene`, an axis, or the one settings field of that name.
+    pub fn parameter(&self, name: &str) -> Option<AxisValue> {
+        if name == "scene" {
+            return Some(AxisValue::Word(self.scene.clone()));
+        }
+        let axis = self.axes.iter().find(|(axis, _)| axis == name);
+        axis.map(|(_, value)| value.clone())
+            .or_else(|| leaf(&self.settings, name))
+    }
+
+    /// `scene=block porosity=0.9`.
+    pub fn label(&self) -> String {
+        let axes = self.axes.iter().map(|(name, value)| format!(" {name}={value}"));
+        format!("scene={}{}", self.scene, axes.collect::<String>())
+    }
+}
+
+/// The first leaf called `name` in a tree of settings, depth first.
+fn leaf(tree: &serde_json::Value, name: &str) -> Option<AxisValue> {
+    let fields = tree.as_object()?;
+    let here = fields
+        .get(name)
+        .and_then(|value| serde_json::from_value(value.clone()).ok());
+    here.or_else(|| fields.values().find_map(|branch| leaf(branch, name)))
+}
+
+impl std::fmt::Display for AxisValue {
+    fn fmt(&self, out: &mut std::fmt::Formatter) -> std::fmt::Result {
+        match self {
+            AxisValue::Number(number) => write!(out, "{number}"),
+            AxisValue::Flag(flag) => write!(out, "{flag}"),
+            AxisValue::Word(word) => write!(out, "{word}"),
+        }
+    }
+}
+
 /// What a point runs.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Work {
@@ -106,6 +143,17 @@ pub enum RehearsalEnding {
 pub struct Selection {
     pub scenes: Vec<String>,
     pub axes: Vec<(String, Vec<AxisValue>)>,
+}
+
+impl Selection {
+    /// Whether a point is meant: every name given must match.
+    pub fn admits(&self, point: &Point) -> bool {
+        let scene = self.scenes.is_empty() || self.scenes.contains(&point.scene);
+        let matches = |(name, values): &(String, Vec<AxisValue>)| {
+            point.parameter(name).is_some_and(|value| values.contains(&value))
+        };
+        scene && self.axes.iter().all(matches)
+    }
 }
 
 /// A statement that a study expects to hold.

@@ -1,0 +1,348 @@
+//! Expectations, figures and observables: their names resolved, their selections checked.
+
+mod band;
+mod named;
+mod selection;
+
+use std::collections::BTreeMap;
+
+use kynch_sim::scene::{Observable, ObservableKind};
+use serde_json::Value as Schema;
+
+pub use selection::admitted;
+
+use super::axes::WrittenAxis;
+use super::model::{Check, Expectation, Figure, FigureKind, Plan, Work};
+use super::names::observables;
+use super::nearest::advice;
+use super::problem::Problems;
+use super::shape::{Place, Shapes};
+use super::spec::statement::{Caption, Common, ExpectationSpec, FigureSpec};
+use super::yaml::{Key, Node, Value};
+
+/// What statements may refer to.
+pub struct Context<'a> {
+    /// Scenes by name, without their axes.
+    pub works: &'a BTreeMap<String, Work>,
+    pub axes: &'a [WrittenAxis],
+    /// Whether scenes and axes could be read; if not, only what does not depend on them is checked.
+    pub complete: bool,
+    /// Without points when a point is at fault.
+    pub plan: &'a Plan,
+    pub shapes: &'a Shapes,
+}
+
+/// One statement as written: `{kind: {fields}}`.
+struct Written<'a> {
+    kind: &'a Key,
+    fields: &'a Node,
+    path: String,
+}
+
+/// Statements of a list whose shape is sound, with their number from 1.
+fn sound<'a>(
+    root: &'a Node,
+    list: &str,
+    schema: &Schema,
+    shapes: &Shapes,
+) -> Vec<(usize, &'a Node, Written<'a>)> {
+    let elements = root.get(list).map(Node::elements).unwrap_or_default();
+    let sound = |node: &&Node| {
+        let mut problems = Problems::default();
+        shapes.check(node, schema, &Place::root(), &mut problems);
+        problems.is_empty()
+    };
+    elements
+        .iter()
+        .enumerate()
+        .filter(|(_, node)| sound(node))
+        .filter_map(|(index, node)| {
+            let (kind, fields) = node.entries().first()?;
+            let path = format!("{list}[{index}].{}", kind.name);
+            Some((index + 1, node, Written { kind, fields, path }))
+        })
+        .collect()
+}
+
+/// Reads `expect`; statements at fault are reported and left out.
+pub fn expectations(root: &Node, context: &Context, problems: &mut Problems) -> Vec<Expectation> {
+    let mut list: Vec<Expectation> = Vec::new();
+    let schema = context.shapes.of("ExpectationSpec");
+    for (number, node, written) in sound(root, "expect", schema, context.shapes) {
+        let spec: ExpectationSpec = match serde_json::from_value(node.json()) {
+            Ok(spec) => spec,
+            Err(error) => {
+                problems.add(
+                    &node.span,
+                    &written.path,
+                    error.to_string(),
+                    "correct the expectation",
+                );
+                continue;
+            }
+        };
+        let mut reader = Reader {
+            written: &written,
+            context,
+            problems,
+        };
+        let (common, check) = reader.expectation(spec);
+        let selection = reader.selection();
+        let id = common
+            .id
+            .unwrap_or_else(|| format!("{}-{number}", written.kind.name));
+        reader.check_id(&id, list.iter().any(|other| other.id == id));
+        let Common {
+            claims, informative, ..
+        } = common.rest;
+        list.push(Expectation {
+            id,
+            check,
+            selection,
+            claims,
+            informative,
+        });
+    }
+    list
+}
+
+/// Reads `figures`; those at fault are reported and left out.
+pub fn figures(root: &Node, context: &Context, problems: &mut Problems) -> Vec<Figure> {
+    let mut list: Vec<Figure> = Vec::new();
+    let schema = context.shapes.of("FigureSpec");
+    for (number, node, written) in sound(root, "figures", schema, context.shapes) {
+        let spec: FigureSpec = match serde_json::from_value(node.json()) {
+            Ok(spec) => spec,
+            Err(error) => {
+                problems.add(&node.span, &written.path, error.to_string(), "correct the figure");
+                continue;
+            }
+        };
+        let mut reader = Reader {
+            written: &written,
+            context,
+            problems,
+        };
+        let (caption, kind) = reader.figure(spec);
+        let selection = reader.selection();
+        let id = caption
+            .id
+            .unwrap_or_else(|| format!("{}-{number}", written.kind.name));
+        reader.check_id(&id, list.iter().any(|other| other.id == id));
+        list.push(Figure {
+            id,
+            title: caption.title,
+            kind,
+            selection,
+            thesis: caption.thesis,
+        });
+    }
+    list
+}
+
+/// Observables to keep: those listed, and those that a statement needs.
+pub fn observe(
+    root: &Node,
+    context: &Context,
+    expect: &[Expectation],
+    figures: &[Figure],
+    problems: &mut Problems,
+) -> Vec<String> {
+    let all: Vec<Observable> = context.works.values().flat_map(observables).collect();
+    let names: Vec<&str> = distinct(all.iter().map(|observable| observable.name));
+    let mut observe: Vec<String> = Vec::new();
+    for (index, node) in root
+        .get("observe")
+        .map(Node::elements)
+        .unwrap_or_default()
+        .iter()
+        .enumerate()
+    {
+        let Value::Text(name) = &node.value else { continue };
+        let field = format!("observe[{index}]");
+        if !names.contains(&name.as_str()) {
+            let message = format!("no scene here can observe `{name}`");
+            problems.add(&node.span, &field, message, advice(name, &names));
+        } else if observe.contains(name) {
+            problems.add(
+                &node.span,
+                &field,
+                format!("`{name}` is listed twice"),
+                "keep one",
+            );
+        } else {
+            observe.push(name.clone());
+        }
+    }
+    let of_checks = expect.iter().map(|expectation| match &expectation.check {
+        Check::Value { of, .. }
+        | Check::Error { of, .. }
+        | Check::Order { of, .. }
+        | Check::Monotone { of, .. } => of,
+    });
+    let of_figures = figures.iter().flat_map(|figure| match &figure.kind {
+        FigureKind::TimeSeries { of, .. } => of.iter().collect::<Vec<_>>(),
+        FigureKind::ErrorAgainstResolution { of, .. }
+        | FigureKind::RunTimeAgainstError { of, .. }
+        | FigureKind::Profile { of, .. } => vec![of],
+    });
+    for name in of_checks.chain(of_figures) {
+        if !observe.contains(name) {
+            observe.push(name.clone());
+        }
+    }
+    observe
+}
+
+fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let mut list = Vec::new();
+    for name in names {
+        if !list.contains(&name) {
+            list.push(name);
+        }
+    }
+    list
+}
+
+/// Reads one statement; every fault goes to `problems`.
+struct Reader<'a, 'p> {
+    written: &'a Written<'a>,
+    context: &'a Context<'a>,
+    problems: &'p mut Problems,
+}
+
+/// `Common` with its identifier taken out.
+struct Named {
+    id: Option<String>,
+    rest: Common,
+}
+
+impl Reader<'_, '_> {
+    fn fault(&mut self, name: &str, message: impl AsRef<str>, help: impl AsRef<str>) {
+        let node = self.written.fields.get(name);
+        let span = node.map_or(self.written.kind.span.clone(), |node| node.span.clone());
+        self.problems
+            .add(&span, &format!("{}.{name}", self.written.path), message, help);
+    }
+
+    fn expectation(&mut self, spec: ExpectationSpec) -> (Named, Check) {
+        use ObservableKind::{Scalar, Series};
+        let (common, check) = match spec {
+            ExpectationSpec::Value(spec) => {
+                let unit = self.observable("of", &spec.of, &[Scalar]);
+                let band = self.band(&spec, unit);
+                (spec.common, Check::Value { of: spec.of, band })
+            }
+            ExpectationSpec::Error(spec) => {
+                self.observable("of", &spec.of, &[Scalar, Series]);
+                self.reference(&spec.against, Some(&spec.of));
+                self.above_zero("below", spec.below.0);
+                (
+                    spec.common,
+                    Check::Error {
+                        of: spec.of,
+                        against: spec.against,
+                        below: spec.below.0,
+                    },
+                )
+            }
+            ExpectationSpec::Order(spec) => {
+                self.observable("of", &spec.of, &[Scalar]);
+                self.reference(&spec.against, Some(&spec.of));
+                self.numeric_axis(&spec.over);
+                self.above_zero("within", spec.within.0);
+                let (is, within) = (spec.is.0, spec.within.0);
+                (
+                    spec.common,
+                    Check::Order {
+                        of: spec.of,
+                        against: spec.against,
+                        over: spec.over,
+                        is,
+                        within,
+                    },
+                )
+            }
+            ExpectationSpec::Monotone(spec) => {
+                self.observable("of", &spec.of, &[Scalar]);
+                self.numeric_axis(&spec.over);
+                (
+                    spec.common,
+                    Check::Monotone {
+                        of: spec.of,
+                        over: spec.over,
+                        rising: spec.rising,
+                    },
+                )
+            }
+        };
+        (
+            Named {
+                id: common.id.clone(),
+                rest: common,
+            },
+            check,
+        )
+    }
+
+    fn figure(&mut self, spec: FigureSpec) -> (Caption, FigureKind) {
+        use ObservableKind::{Profile, Scalar, Series};
+        let (caption, kind) = match spec {
+            FigureSpec::TimeSeries(spec) => {
+                for of in &spec.of.0 {
+                    self.observable("of", of, &[Series]);
+                }
+                if let Some(against) = &spec.against {
+                    self.reference(against, spec.of.0.first());
+                }
+                let group = spec.caption.group.clone();
+                (
+                    spec.caption,
+                    FigureKind::TimeSeries {
+                        of: spec.of.0,
+                        against: spec.against,
+                        group,
+                    },
+                )
+            }
+            FigureSpec::ErrorAgainstResolution(spec) => {
+                self.observable("of", &spec.of, &[Scalar, Series]);
+                self.reference(&spec.against, Some(&spec.of));
+                self.numeric_axis(&spec.over);
+                let group = spec.caption.group.clone();
+                let (of, against, over) = (spec.of, spec.against, spec.over);
+                (
+                    spec.caption,
+                    FigureKind::ErrorAgainstResolution {
+                        of,
+                        against,
+                        over,
+                        group,
+                    },
+                )
+            }
+            FigureSpec::RunTimeAgainstError(spec) => {
+                self.observable("of", &spec.of, &[Scalar, Series]);
+                self.reference(&spec.against, Some(&spec.of));
+                let group = spec.caption.group.clone();
+                (
+                    spec.caption,
+                    FigureKind::RunTimeAgainstError {
+                        of: spec.of,
+                        against: spec.against,
+                        group,
+                    },
+                )
+            }
+            FigureSpec::Profile(spec) => {
+                self.observable("of", &spec.of, &[Profile]);
+                let group = spec.caption.group.clone();
+                (spec.caption, FigureKind::Profile { of: spec.of, group })
+            }
+        };
+        if let Some(group) = &caption.group {
+            self.group(group);
+        }
+        (caption, kind)
+    }
+}

@@ -1,0 +1,193 @@
+//! Names in a statement: observables, references, axes and fields.
+
+use kynch_sim::scene::{Observable, ObservableKind};
+use serde_json::Value as Schema;
+
+use super::{Reader, distinct};
+use crate::study::model::AxisValue;
+use crate::study::names::{REFERENCES, observables};
+use crate::study::nearest::advice;
+use crate::study::units::{self, Dimension};
+use crate::study::yaml::Node;
+
+impl Reader<'_, '_> {
+    /// Scenes that the statement may be about.
+    pub(super) fn scenes(&self) -> Vec<&str> {
+        let all = || self.context.works.keys().map(String::as_str).collect::<Vec<_>>();
+        let Some(node) = self
+            .written
+            .fields
+            .get("where")
+            .and_then(|selection| selection.get("scene"))
+        else {
+            return all();
+        };
+        let nodes = if node.elements().is_empty() {
+            std::slice::from_ref(node)
+        } else {
+            node.elements()
+        };
+        let named: Vec<String> = nodes.iter().map(Node::shown).collect();
+        all()
+            .into_iter()
+            .filter(|name| named.iter().any(|other| other == name))
+            .collect()
+    }
+
+    /// Checks that a selected scene offers an observable of the right kind; gives its unit.
+    pub(super) fn observable(
+        &mut self,
+        field: &str,
+        name: &str,
+        kinds: &[ObservableKind],
+    ) -> Option<Dimension> {
+        let scenes = self.scenes();
+        if scenes.is_empty() {
+            return None;
+        }
+        let offered: Vec<Observable> = scenes
+            .iter()
+            .flat_map(|scene| observables(&self.context.works[*scene]))
+            .collect();
+        let right: Vec<&str> = distinct(
+            offered
+                .iter()
+                .filter(|observable| kinds.contains(&observable.kind))
+                .map(|observable| observable.name),
+        );
+        match offered.iter().find(|observable| observable.name == name) {
+            Some(found) if kinds.contains(&found.kind) => {
+                if found.unit == "1" {
+                    return Some(Dimension::NONE);
+                }
+                units::parse(&format!("1 {}", found.unit))
+                    .ok()
+                    .map(|unit| unit.dimension)
+            }
+            Some(found) => {
+                let wanted: Vec<&str> = kinds.iter().map(|kind| kind_name(*kind)).collect();
+                let message = format!(
+                    "`{name}` is {}, this needs {}",
+                    kind_name(found.kind),
+                    wanted.join(" or ")
+                );
+                self.fault(field, message, format!("known: {}", right.join(", ")));
+                None
+            }
+            None => {
+                self.fault(
+                    field,
+                    format!("no scene here can observe `{name}`"),
+                    advice(name, &right),
+                );
+                None
+            }
+        }
+    }
+
+    /// Checks that a reference exists, and is a curve exactly when the observable is one.
+    pub(super) fn reference(&mut self, name: &str, of: Option<&String>) {
+        let works = self.context.works.values();
+        let offered: Vec<Observable> = works.flat_map(observables).collect();
+        let kind = of
+            .and_then(|of| offered.iter().find(|observable| observable.name == of))
+            .map(|found| found.kind);
+        let fitting: Vec<&str> = REFERENCES
+            .iter()
+            .filter(|(_, is)| kind.is_none_or(|kind| kind == *is))
+            .map(|(name, _)| *name)
+            .collect();
+        match (REFERENCES.iter().find(|(known, _)| *known == name), kind) {
+            (None, _) => self.fault(
+                "against",
+                format!("there is no reference `{name}`"),
+                advice(name, &fitting),
+            ),
+            (Some((_, is)), Some(kind)) if *is != kind && kind != ObservableKind::Profile => {
+                let message = format!(
+                    "the reference `{name}` is {}, the observable is {}",
+                    kind_name(*is),
+                    kind_name(kind)
+                );
+                self.fault("against", message, format!("known: {}", fitting.join(", ")));
+            }
+            _ => {}
+        }
+    }
+
+    /// Checks that a name is an axis of numbers with at least two values.
+    pub(super) fn numeric_axis(&mut self, name: &str) {
+        if !self.context.complete {
+            return;
+        }
+        let names: Vec<&str> = self
+            .context
+            .axes
+            .iter()
+            .map(|axis| axis.axis.name.as_str())
+            .collect();
+        let Some(axis) = self.context.axes.iter().find(|axis| axis.axis.name == name) else {
+            return self.fault("over", format!("there is no axis `{name}`"), advice(name, &names));
+        };
+        let numbers = axis
+            .axis
+            .values
+            .iter()
+            .all(|value| matches!(value, AxisValue::Number(_)));
+        if !numbers {
+            self.fault(
+                "over",
+                format!("the axis `{name}` does not hold numbers"),
+                "choose one that does",
+            );
+        } else if axis.axis.values.len() < 2 {
+            self.fault(
+                "over",
+                format!("the axis `{name}` has a single value"),
+                "two are needed at least",
+            );
+        }
+    }
+
+    pub(super) fn group(&mut self, name: &str) {
+        let known = self.parameters();
+        if !self.context.plan.points.is_empty() && !known.iter().any(|other| other == name) {
+            let known: Vec<&str> = known.iter().map(String::as_str).collect();
+            let message = format!("`{name}` is neither `scene`, nor an axis, nor a field of a scene");
+            self.fault("group", message, advice(name, &known));
+        }
+    }
+
+    /// `scene`, the axes and every leaf of the settings.
+    pub(super) fn parameters(&self) -> Vec<String> {
+        let mut names = vec!["scene".to_owned()];
+        names.extend(self.context.axes.iter().map(|axis| axis.axis.name.clone()));
+        let mut seen: Vec<&str> = Vec::new();
+        for point in &self.context.plan.points {
+            if !seen.contains(&point.scene.as_str()) {
+                seen.push(&point.scene);
+                leaves(&point.settings, &mut names);
+            }
+        }
+        names
+    }
+}
+
+fn kind_name(kind: ObservableKind) -> &'static str {
+    match kind {
+        ObservableKind::Scalar => "a scalar",
+        ObservableKind::Series => "a series",
+        ObservableKind::Profile => "a profile",
+    }
+}
+
+/// Names of the leaves of a tree of settings.
+fn leaves(tree: &Schema, names: &mut Vec<String>) {
+    for (name, value) in tree.as_object().into_iter().flatten() {
+        if value.is_object() {
+            leaves(value, names);
+        } else if !names.contains(name) {
+            names.push(name.clone());
+        }
+    }
+}
