@@ -21,9 +21,9 @@ pub(super) struct Disk {
     /// Held as long as the store is open; the operating system lets go when the process dies,
     /// however it dies, so that a stale lock cannot exist. `None` when opened for reading only.
     lock: Option<File>,
-    /// Bytes that may still be written before the disk counts as full.
+    /// Writes that still succeed before the disk counts as full.
     #[cfg(test)]
-    pub space: std::sync::atomic::AtomicI64,
+    pub writes_left: std::sync::atomic::AtomicI64,
 }
 
 impl Disk {
@@ -49,7 +49,7 @@ impl Disk {
             writes: AtomicU64::new(0),
             lock: None,
             #[cfg(test)]
-            space: std::sync::atomic::AtomicI64::new(i64::MAX),
+            writes_left: std::sync::atomic::AtomicI64::new(i64::MAX),
         }
     }
 
@@ -76,7 +76,7 @@ impl Disk {
 
     fn write_and_rename(&self, temporary: &Path, target: &Path, bytes: &[u8]) -> io::Result<()> {
         #[cfg(test)]
-        if self.space.fetch_sub(bytes.len() as i64, Ordering::Relaxed) < bytes.len() as i64 {
+        if self.writes_left.fetch_sub(1, Ordering::Relaxed) <= 0 {
             return Err(io::ErrorKind::StorageFull.into());
         }
         let mut file = File::create(temporary)?;

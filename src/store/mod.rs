@@ -299,3 +299,6 @@ fn tables(state: &State) -> Result<Vec<(&'static str, Vec<u8>, String)>, StoreEr
     }
     Ok(all)
 }
+
+#[cfg(test)]
+mod tests;
