@@ -229,3 +229,61 @@ fn counters(counters: Counters) -> Vec<(String, u64)> {
         .map(|(name, value)| (name.to_string(), value))
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use std::cell::RefCell;
+
+    use super::*;
+    use crate::runner::State;
+    use crate::store::model::PointId;
+    use crate::study::model::{Point, Rehearsal, RehearsalEnding};
+
+    fn planned() -> Planned {
+        let work = Work::Rehearsal(Rehearsal {
+            limit: 1.0,
+            time_constant: 1.0,
+            duration: 1.0,
+            samples: 3,
+            scale: 1.0,
+            order: 1.0,
+            error: 0.0,
+            delay: 20.0,
+            ending: RehearsalEnding::Completes,
+        });
+        let settings = serde_json::json!({});
+        let point = Point {
+            index: 0,
+            scene: "scene".into(),
+            axes: vec![],
+            seed: 1,
+            settings,
+            work,
+        };
+        Planned {
+            point,
+            id: PointId("id".into()),
+            state: State::Due("a test".into()),
+        }
+    }
+
+    #[test]
+    fn a_run_that_takes_too_much_memory_is_stopped() {
+        let taken = RefCell::new(Vec::new());
+        let take = |_| taken.borrow_mut().push(vec![1_u8; 1 << 20]);
+        let limits = Limits {
+            memory: Some(3 << 20),
+            ..Limits::default()
+        };
+        let run = execute("study", &planned(), limits, &|| false, &take).unwrap();
+        assert_eq!(run.status, Status::OutOfMemory);
+        assert_eq!(run.reason.as_deref(), Some("took more than the limit of 3.0 MiB"));
+        assert!((3..6).contains(&taken.borrow().len()));
+    }
+
+    #[test]
+    fn an_interrupted_run_leaves_nothing() {
+        let run = execute("study", &planned(), Limits::default(), &|| true, &|_| {});
+        assert_eq!(run, None);
+    }
+}

@@ -108,6 +108,10 @@ fn read_tables(disk: &Disk, state: &mut State) -> Result<(), StoreError> {
             state.axis_units.insert(name.clone(), unit.clone());
         }
     }
+    if !state.manifest.lists(TIMINGS) {
+        // The first compaction was cut short: the rows below `pending/` have the timings.
+        return Ok(());
+    }
     let timings = read_listed(disk, &state.manifest, TIMINGS)?;
     let reader = Reader {
         batch: &timings,
