@@ -224,7 +224,7 @@ impl Store {
     pub fn compact(&self) -> Result<(), StoreError> {
         let mut state = self.state();
         let new = tables(&state)?;
-        let listed = |(name, _, hash): &(&str, Vec<u8>, String)| state.manifest.sums(name) == [hash.clone()];
+        let listed = |table: &Merged| state.manifest.sums(table.name) == [table.hash.clone()];
         let pending: Vec<String> = state
             .entries
             .values()
@@ -234,17 +234,17 @@ impl Store {
             return Ok(());
         }
         // Either version of a table is right from here on, until all are replaced.
-        for (name, _, hash) in &new {
+        for Merged { name, hash, .. } in &new {
             if !state.manifest.lists(name) {
                 state.manifest.admit(name, ABSENT);
             }
             state.manifest.admit(name, hash);
         }
         self.disk.write(FILE, state.manifest.render().as_bytes())?;
-        for (name, bytes, _) in &new {
+        for Merged { name, bytes, .. } in &new {
             self.disk.write(name, bytes)?;
         }
-        for (name, _, hash) in &new {
+        for Merged { name, hash, .. } in &new {
             state.manifest.set(name, hash);
         }
         for path in &pending {
@@ -280,8 +280,15 @@ impl Entry {
     }
 }
 
-/// Name, bytes and sum of each merged table.
-fn tables(state: &State) -> Result<Vec<(&'static str, Vec<u8>, String)>, StoreError> {
+/// A table about to be written.
+struct Merged {
+    name: &'static str,
+    bytes: Vec<u8>,
+    hash: String,
+}
+
+/// The tables of all runs.
+fn tables(state: &State) -> Result<Vec<Merged>, StoreError> {
     let mut rows: Vec<&Row> = state.entries.values().map(|entry| &entry.row).collect();
     rows.sort_by_key(|row| (&row.run.study, &row.run.id));
     let runs = file::batch(row::columns(&rows, &state.axis_units)?)?;
@@ -295,7 +302,7 @@ fn tables(state: &State) -> Result<Vec<(&'static str, Vec<u8>, String)>, StoreEr
     for (name, batch) in [(RUNS, runs), (TIMINGS, timings), (COLUMNS, columns)] {
         let bytes = file::encode(&batch)?;
         let hash = sum(&bytes);
-        all.push((name, bytes, hash));
+        all.push(Merged { name, bytes, hash });
     }
     Ok(all)
 }

@@ -25,6 +25,59 @@ fn slow_study() -> Study {
     )
 }
 
+/// Not a test: what the interrupted process does.
+#[test]
+#[ignore = "run by ctrl_c_keeps_what_is_finished in a process of its own"]
+fn interrupted_child() {
+    let Some(dir) = std::env::var_os(STORE).map(PathBuf::from) else {
+        return;
+    };
+    let store = Store::open(&dir).unwrap();
+    let long = study(
+        scales(200)
+            .into_iter()
+            .map(|scene| Rehearsal { delay: 0.05, ..scene })
+            .collect(),
+    );
+    let summary = run(
+        &long,
+        &store,
+        &Options {
+            jobs: Some(2),
+            ..Options::default()
+        },
+    )
+    .unwrap();
+    assert!(
+        summary.interrupted && summary.completed > 0 && summary.failed.is_empty(),
+        "{summary:?}"
+    );
+    assert_eq!(summary.completed + summary.not_run, 200);
+    assert_eq!(store.finished().unwrap().len(), summary.completed);
+}
+
+#[test]
+#[cfg(unix)]
+fn ctrl_c_keeps_what_is_finished() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut child = start_child("crash::interrupted_child", dir.path());
+    // Until some points are finished.
+    while Store::read(dir.path()).map_or(0, |store| store.finished().unwrap().len()) < 3 {
+        assert_eq!(
+            child.try_wait().unwrap(),
+            None,
+            "the child ended before it was interrupted"
+        );
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    // SAFETY: a signal to a child that has not been waited for.
+    assert_eq!(unsafe { libc::kill(child.id() as i32, libc::SIGINT) }, 0);
+    assert!(child.wait().unwrap().success());
+    assert_eq!(Store::inspect(dir.path()).unwrap(), []);
+    let kept = Store::read(dir.path()).unwrap().finished().unwrap().len();
+    assert!((3..200).contains(&kept), "{kept}");
+}
+
 /// Not a test: what the killed process does.
 #[test]
 #[ignore = "run by kill_nine_loses_only_points_in_flight in a process of its own"]
@@ -43,9 +96,9 @@ fn child() {
     }
 }
 
-fn start_child(dir: &std::path::Path) -> Child {
+fn start_child(test: &str, dir: &std::path::Path) -> Child {
     Command::new(std::env::current_exe().unwrap())
-        .args(["--ignored", "--exact", "crash::child"])
+        .args(["--ignored", "--exact", test])
         .env(STORE, dir)
         .stdout(Stdio::null())
         .stderr(Stdio::null())
@@ -58,7 +111,7 @@ fn kill_nine_loses_only_points_in_flight() {
     let dir = tempfile::tempdir().unwrap();
     let mut kept = 0;
     for kill in 0..KILLS {
-        let mut child = start_child(dir.path());
+        let mut child = start_child("crash::child", dir.path());
         std::thread::sleep(Duration::from_millis(60 + 31 * u64::from(kill)));
         child.kill().unwrap();
         let status = child.wait().unwrap();
