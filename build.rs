@@ -20,7 +20,17 @@ fn main() {
         }
     }
     let commit = output("git", &["rev-parse", "HEAD"], &root);
-    let dirty = output("git", &["status", "--porcelain", "--untracked-files=no"], &root);
+    // Without optional locks, `status` leaves alone the index that is watched above.
+    let dirty = output(
+        "git",
+        &[
+            "--no-optional-locks",
+            "status",
+            "--porcelain",
+            "--untracked-files=no",
+        ],
+        &root,
+    );
     let compiler = output(
         &env::var("RUSTC").unwrap_or_else(|_| "rustc".into()),
         &["--version"],

@@ -97,6 +97,9 @@ fn describe(role: &str, name: &str) -> String {
         ("timing", "cpu") => "processor time of the threads that worked on the run".into(),
         ("timing", "peak_memory") => "largest memory of the run".into(),
         ("provenance", "dirty") => "whether the sources differed from the commit".into(),
+        ("provenance", "lock_hash") => "BLAKE3 of Cargo.lock".into(),
+        ("provenance", "simulator_hash") => "BLAKE3 of the simulator's sources".into(),
+        ("provenance", "processor") => "model of the processor".into(),
         ("provenance", "finished") => "end of the run, UTC".into(),
         (_, name) => format!("{} of the program that ran", name.replace('_', " ")),
     }

@@ -35,7 +35,7 @@ use disk::Disk;
 use manifest::{ABSENT, FILE, Manifest, sum};
 use model::{PointId, Run, Status, Timing};
 use row::Row;
-use series::{file_name, is_file_name};
+use series::{TableFile, file_name, is_file_name};
 
 const RUNS: &str = "runs.parquet";
 const TIMINGS: &str = "timings.parquet";
@@ -153,16 +153,38 @@ impl Store {
         }
         row::check(run)?;
         let mut tables = Vec::new();
+        let kept = self.write_tables(run, &mut tables).and_then(|()| {
+            let mut run = run.clone();
+            run.tables.clear();
+            let tables = tables.clone();
+            self.commit(Row { run, tables })
+        });
+        if kept.is_err() {
+            self.discard(&tables);
+        }
+        kept
+    }
+
+    fn write_tables(&self, run: &Run, places: &mut Vec<TableFile>) -> Result<(), StoreError> {
         for table in &run.tables {
             let (place, bytes) = series::encode(&run.id, table)?;
             if let Some(path) = &place.path {
                 self.disk.write(path, &bytes)?;
             }
-            tables.push(place);
+            places.push(place);
         }
-        let mut run = run.clone();
-        run.tables.clear();
-        self.commit(Row { run, tables })
+        Ok(())
+    }
+
+    /// Clears away the tables of a run that could not be kept, as far as nothing refers to them.
+    fn discard(&self, places: &[TableFile]) {
+        let wanted = self.state().referenced();
+        for path in places.iter().filter_map(|place| place.path.as_ref()) {
+            if !wanted.contains_key(path) {
+                // Should this fail as well, the next opening does it.
+                let _ = self.disk.remove(path);
+            }
+        }
     }
 
     /// The rename of the row's file is the instant at which the run exists.

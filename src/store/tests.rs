@@ -70,7 +70,10 @@ fn a_disk_full_at_any_write_loses_nothing_that_was_kept() {
         assert_eq!(store.verify().unwrap(), [], "after {writes} writes");
         match result {
             Ok(()) => break,
-            Err(StoreError::Full { .. }) => failures += 1,
+            Err(error @ StoreError::Full { .. }) => {
+                assert!(error.to_string().contains("free some space"), "{error}");
+                failures += 1;
+            }
             Err(other) => panic!("after {writes} writes: {other}"),
         }
         work(&store).unwrap();
@@ -116,4 +119,22 @@ fn reading_does_not_need_or_touch_the_lock() {
     ));
     drop(store);
     assert!(Store::open(dir.path()).is_ok());
+}
+
+#[test]
+fn a_run_that_could_not_be_kept_leaves_no_files() {
+    let dir = tempfile::tempdir().unwrap();
+    let store = Store::open(dir.path()).unwrap();
+    store.append(&run(1, 1.0)).unwrap();
+    let before = contents(dir.path());
+    for writes in 0..2 {
+        store.disk.writes_left.store(writes, Ordering::Relaxed);
+        store.append(&run(2, 2.0)).unwrap_err();
+        assert_eq!(contents(dir.path()), before, "after {writes} writes");
+    }
+    // The same run in the place of itself: its files are still wanted.
+    store.disk.writes_left.store(1, Ordering::Relaxed);
+    store.append(&run(1, 1.0)).unwrap_err();
+    assert_eq!(contents(dir.path()), before);
+    assert_eq!(store.verify().unwrap(), []);
 }

@@ -7,6 +7,8 @@ pub(super) fn unit_of(field: &str) -> Option<&'static str> {
         "density" => "kg/m³",
         "viscosity" => "Pa s",
         "duration" | "time_step" | "time_constant" | "delay" => "s",
+        // Of a rehearsal, whose value stands for a speed.
+        "limit" => "m/s",
         "gravity" => "m/s²",
         "stiffness" => "N/m",
         "porosity"

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use kynch::runner::{Options, run};
 use kynch::store::Store;
@@ -106,13 +106,26 @@ fn start_child(test: &str, dir: &std::path::Path) -> Child {
         .unwrap()
 }
 
+/// Until the child has the store open, so that the kill hits its work however slowly it starts.
+fn wait_for_lock(child: &Child, dir: &std::path::Path) {
+    let start = Instant::now();
+    while std::fs::read_to_string(dir.join(".lock")).unwrap_or_default() != child.id().to_string() {
+        assert!(
+            start.elapsed() < Duration::from_secs(60),
+            "the child does not start"
+        );
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
 #[test]
 fn kill_nine_loses_only_points_in_flight() {
     let dir = tempfile::tempdir().unwrap();
     let mut kept = 0;
     for kill in 0..KILLS {
         let mut child = start_child("crash::child", dir.path());
-        std::thread::sleep(Duration::from_millis(60 + 31 * u64::from(kill)));
+        wait_for_lock(&child, dir.path());
+        std::thread::sleep(Duration::from_millis(10 + 16 * u64::from(kill)));
         child.kill().unwrap();
         let status = child.wait().unwrap();
         assert_eq!(status.code(), None, "the child ended by itself in round {kill}");
