@@ -1,2 +1,11 @@
+//! One binary for all integration tests.
+
+mod architecture;
 mod bad_inputs;
+mod cli;
+mod crash;
+mod readers;
+mod rehearsals;
+mod runner;
+mod store;
 mod studies;
