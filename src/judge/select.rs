@@ -208,11 +208,18 @@ fn order(study: &Study, a: &Run, b: &Run) -> Ordering {
         .then_with(|| a.id.cmp(&b.id))
 }
 
+/// A total order: numbers, flags, words.
 fn compare(a: &AxisValue, b: &AxisValue) -> Ordering {
+    let rank = |value: &AxisValue| match value {
+        AxisValue::Number(_) => 0,
+        AxisValue::Flag(_) => 1,
+        AxisValue::Word(_) => 2,
+    };
     match (a, b) {
-        _ if same(a, b) => Ordering::Equal,
         (AxisValue::Number(a), AxisValue::Number(b)) => a.total_cmp(b),
-        _ => axis_value(a).cmp(&axis_value(b)),
+        _ => rank(a)
+            .cmp(&rank(b))
+            .then_with(|| axis_value(a).cmp(&axis_value(b))),
     }
 }
 

@@ -395,9 +395,11 @@ proptest! {
     ) {
         let mut runs = Vec::new();
         for (scene, error) in [("a", errors[0]), ("b", errors[1])] {
-            for run in ladder(error) {
-                runs.push(seeded(&run, 1, LIMIT + errors[2]));
-                runs.push(seeded(&run, 2, LIMIT + errors[3]));
+            for scale in [1.0, 2.0, 4.0] {
+                let run = rehearse(scene, scale, error);
+                let value = run.scalars[0].value;
+                runs.push(seeded(&run, 1, value + errors[2]));
+                runs.push(seeded(&run, 2, value + errors[3]));
             }
         }
         let checks = [limit_below(0.005), order_two(), monotone(true), error_below("value", "known_series", 0.01)];
