@@ -272,7 +272,10 @@ mod tests {
             let seen = |z: f64| twice.at(z);
             let block = SmoothedBlock::new(GLASS, DragLaw::DiFelice, &layers, &seen, &seen).unwrap();
             let found = block.settling_velocity() / constant(0.9, DragLaw::DiFelice) - 1.0;
-            assert!((0.7..1.0).contains(&(found / published)), "spacing {spacing} d: {found}");
+            assert!(
+                (0.7..1.0).contains(&(found / published)),
+                "spacing {spacing} d: {found}"
+            );
         }
     }
 
