@@ -1,6 +1,20 @@
 //! Values to judge against: analytic solutions and published data. Shares nothing with the simulator.
 
+pub mod drag_law;
+pub mod force_balance;
+pub mod grain;
+pub mod kernel;
+pub mod library;
+pub mod rehearsal;
+mod root;
+mod settings;
+pub mod smoothed_balance;
+pub mod stokes_start_up;
+pub mod terminal_velocity;
+
 use serde_json::Value;
+
+use settings::Case;
 
 /// What a reference may know of a run.
 pub struct Facts<'a> {
@@ -31,17 +45,169 @@ pub struct Entry {
     pub source: &'static str,
 }
 
-/// A scalar reference by name.
-pub fn scalar(_name: &str, _facts: &Facts) -> Result<Expected, ReferenceError> {
-    todo!()
+type Solve = fn(&Case) -> Result<f64, ReferenceError>;
+type Curve = fn(&Case, &[f64]) -> Result<Vec<f64>, ReferenceError>;
+
+/// A reference is a value or a curve.
+enum Kind {
+    Scalar(Solve),
+    Series(Curve),
 }
 
-/// A reference curve by name, at the given abscissae (times [s], mostly).
-pub fn series(_name: &str, _facts: &Facts, _at: &[f64]) -> Result<Expected, ReferenceError> {
-    todo!()
+struct Solution {
+    entry: Entry,
+    unit: &'static str,
+    kind: Kind,
+}
+
+/// The register: one line per solution.
+fn solutions() -> Vec<Solution> {
+    vec![
+        stokes_start_up::solution(),
+        terminal_velocity::solution(),
+        force_balance::solution(),
+        smoothed_balance::solution(),
+        rehearsal::limit(),
+        rehearsal::series(),
+    ]
+}
+
+/// A scalar reference by name.
+///
+/// # Errors
+/// An unknown name, a curve asked for as a value, or settings the solution does not hold for.
+pub fn scalar(name: &str, facts: &Facts) -> Result<Expected, ReferenceError> {
+    let solution = find(name)?;
+    let Kind::Scalar(solve) = solution.kind else {
+        return Err(ReferenceError(format!(
+            "the reference `{name}` is a curve over time: compare a series with it, not a scalar"
+        )));
+    };
+    let value = solve(&Case::of(facts)?)?;
+    Ok(expected(vec![value], &solution))
+}
+
+/// A reference curve by name, at the given abscissae (times [s], mostly). A scalar reference is the
+/// same at every abscissa.
+///
+/// # Errors
+/// An unknown name, or settings the solution does not hold for.
+pub fn series(name: &str, facts: &Facts, at: &[f64]) -> Result<Expected, ReferenceError> {
+    let solution = find(name)?;
+    let case = Case::of(facts)?;
+    let values = match solution.kind {
+        Kind::Scalar(solve) => vec![solve(&case)?; at.len()],
+        Kind::Series(curve) => curve(&case, at)?,
+    };
+    Ok(expected(values, &solution))
 }
 
 /// Every reference there is.
 pub fn list() -> Vec<Entry> {
-    todo!()
+    solutions().into_iter().map(|solution| solution.entry).collect()
+}
+
+fn find(name: &str) -> Result<Solution, ReferenceError> {
+    solutions()
+        .into_iter()
+        .find(|solution| solution.entry.name == name)
+        .ok_or_else(|| {
+            let names: Vec<_> = list().iter().map(|entry| entry.name).collect();
+            ReferenceError(format!(
+                "there is no reference `{name}`; there are {}",
+                names.join(", ")
+            ))
+        })
+}
+
+fn expected(values: Vec<f64>, solution: &Solution) -> Expected {
+    Expected {
+        values,
+        unit: solution.unit,
+        source: solution.entry.source.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn sphere(drag: &str) -> Value {
+        json!({"single_sphere": {
+            "grains": {"diameter": 1e-4, "density": 2500.0}, "drag": drag,
+            "fluid": {"still": {"density": 1000.0, "viscosity": 8.9e-4}},
+            "column": {"width": 4e-3, "height": 6e-3}, "gravity": 9.81}})
+    }
+
+    fn value(name: &str, settings: &Value) -> Result<f64, ReferenceError> {
+        let facts = Facts {
+            settings,
+            scalars: &|_| None,
+        };
+        scalar(name, &facts).map(|expected| expected.values[0])
+    }
+
+    #[test]
+    fn a_sphere_alone_balances_like_an_isolated_grain() {
+        for law in [
+            "stokes",
+            "dallavalle",
+            "schiller_naumann",
+            "di_felice",
+            "coulson_richardson",
+        ] {
+            let settings = sphere(law);
+            let alone = value("terminal_velocity", &settings).unwrap();
+            let balance = value("force_balance", &settings).unwrap();
+            assert!(
+                (alone / balance - 1.0).abs() < 1e-12,
+                "{law}: {alone} and {balance}"
+            );
+        }
+    }
+
+    #[test]
+    fn the_start_up_curve_ends_at_the_terminal_velocity() {
+        let settings = sphere("stokes");
+        let facts = Facts {
+            settings: &settings,
+            scalars: &|_| None,
+        };
+        let curve = series("stokes_start_up", &facts, &[0.0, 1.0]).unwrap();
+        let terminal = value("terminal_velocity", &settings).unwrap();
+        assert_eq!(curve.values[0], 0.0);
+        assert!((curve.values[1] / terminal - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn wrong_uses_say_what_is_wrong() {
+        let settings = sphere("dallavalle");
+        let facts = Facts {
+            settings: &settings,
+            scalars: &|_| None,
+        };
+        let message = |result: Result<Expected, ReferenceError>| result.unwrap_err().0;
+        assert!(message(scalar("stokes", &facts)).contains("stokes_start_up"));
+        assert!(message(scalar("stokes_start_up", &facts)).contains("curve"));
+        assert!(message(series("stokes_start_up", &facts, &[0.0])).contains("dallavalle"));
+        assert!(message(scalar("smoothed_balance", &facts)).contains("constant_porosity_block"));
+        assert!(message(scalar("known_limit", &facts)).contains("rehearsal"));
+    }
+
+    #[test]
+    fn settings_without_a_needed_field_name_it() {
+        let settings = json!({"single_sphere": {"grains": {"diameter": 1e-4}, "drag": "stokes"}});
+        let message = value("terminal_velocity", &settings).unwrap_err().0;
+        assert!(message.contains("grains.density"), "{message}");
+        assert!(value("terminal_velocity", &json!(3)).is_err());
+    }
+
+    #[test]
+    fn every_reference_is_found_under_its_own_name() {
+        for entry in list() {
+            assert!(find(entry.name).is_ok());
+            assert!(!entry.source.is_empty() && !entry.meaning.is_empty());
+        }
+    }
 }

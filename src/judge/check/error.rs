@@ -1,0 +1,61 @@
+//! The relative error against a reference stays below a bound, at every point.
+
+use super::{Finding, Part, blank, erroneous, spread};
+use crate::judge::model::PointVerdict;
+use crate::judge::point_error::{PointError, mean_error};
+use crate::judge::select::Replicates;
+use crate::judge::words::{percent, significant};
+
+pub fn check(groups: &[Replicates], of: &str, against: &str, below: f64) -> Finding {
+    let mut finding = Finding::default();
+    let mut widest_spread = 0.0f64;
+    for group in groups {
+        let error = match mean_error(group, of, against) {
+            Ok(error) => error,
+            Err(undecided) => {
+                finding.points.push(blank(group));
+                finding
+                    .parts
+                    .push(Part::open(format!("{}: {undecided}", group.label())));
+                continue;
+            }
+        };
+        if finding.error.is_none_or(|worst| error.error > worst) {
+            finding.error = Some(error.error);
+            finding.expected = Some(error.expected);
+            finding.computed = Some(error.computed);
+        }
+        widest_spread = widest_spread.max(error.spread);
+        let part = part(group, &error, below);
+        finding.points.push(PointVerdict {
+            holds: part.decided(),
+            ..erroneous(group, &error)
+        });
+        finding.parts.push(part);
+        finding.unit = error.unit;
+        finding.source = error.source;
+    }
+    finding.spread = spread(groups, widest_spread);
+    finding
+}
+
+fn part(group: &Replicates, error: &PointError, below: f64) -> Part {
+    let found = percent(error.error);
+    if error.spread > 0.0 && (error.error - below).abs() <= error.spread {
+        return Part::open(format!(
+            "{}: the error {found} ± {} over seeds straddles {}; run more seeds",
+            group.label(),
+            percent(error.spread),
+            percent(below)
+        ));
+    }
+    if error.error < below {
+        return Part::holds();
+    }
+    Part::fails(format!(
+        "{}: the error is {found}, {} instead of {}",
+        group.label(),
+        significant(error.computed, 6),
+        significant(error.expected, 6)
+    ))
+}

@@ -1,0 +1,184 @@
+//! The error of one point: the number that verdicts and figures share.
+
+use super::select::Replicates;
+use crate::reference::{self, Facts};
+use crate::store::model::{Run, Table};
+
+/// Why a number cannot be had; what to do.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{0}")]
+pub struct Undecided(pub String);
+
+/// A quantity beside its reference.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointError {
+    /// The reference value; for a series, the one where it is farthest off.
+    pub expected: f64,
+    /// The value found, at the same place; a mean over seeds.
+    pub computed: f64,
+    /// Relative error, never negative [-].
+    pub error: f64,
+    /// With its sign for a scalar; the error itself for a series.
+    pub signed: f64,
+    /// Standard error of `signed` over seeds; zero for one seed.
+    pub spread: f64,
+    pub unit: String,
+    /// Citation of the reference.
+    pub source: String,
+}
+
+/// A scalar over seeds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mean {
+    pub value: f64,
+    /// Standard error of the mean; zero for one seed.
+    pub spread: f64,
+    pub unit: String,
+}
+
+/// Relative error of a scalar or a series of one run against a reference.
+///
+/// Scalar: |x/x_ref − 1|. Series: max|x − x_ref| over max|x_ref|, the reference taken at the run's own times.
+///
+/// # Errors
+/// An observable the run does not have, a reference that does not hold for its scene or is zero,
+/// or a result that is not finite.
+pub fn point_error(run: &Run, of: &str, against: &str) -> Result<PointError, Undecided> {
+    let scalar = |name: &str| run.scalar(name).map(|scalar| scalar.value);
+    let facts = Facts {
+        settings: &run.settings,
+        scalars: &scalar,
+    };
+    let refused = |error: reference::ReferenceError| Undecided(error.to_string());
+    let error = if let Some(found) = run.scalar(of) {
+        let expected = reference::scalar(against, &facts).map_err(refused)?;
+        let values = (vec![found.value], expected.values);
+        largest(values, &found.unit, expected.source)
+    } else {
+        let (times, values, unit) = series(run, of)?;
+        let expected = reference::series(against, &facts, times).map_err(refused)?;
+        let mut error = largest((values.to_vec(), expected.values), unit, expected.source)?;
+        error.signed = error.error;
+        Ok(error)
+    }?;
+    if !error.error.is_finite() {
+        return Err(Undecided(format!(
+            "{of} against {against} is no finite number: the result or the reference is zero or not finite"
+        )));
+    }
+    Ok(error)
+}
+
+/// The same over seeds: the error of the mean for a scalar, the mean error for a series.
+///
+/// # Errors
+/// As [`point_error`], for any of the runs.
+pub fn mean_error(replicates: &Replicates, of: &str, against: &str) -> Result<PointError, Undecided> {
+    let errors: Vec<PointError> = replicates
+        .runs
+        .iter()
+        .map(|run| point_error(run, of, against))
+        .collect::<Result<_, _>>()?;
+    let mean_of = |number: fn(&PointError) -> f64| mean(errors.iter().map(number)).0;
+    let (signed, spread) = mean(errors.iter().map(|error| error.signed));
+    Ok(PointError {
+        expected: mean_of(|error| error.expected),
+        computed: mean_of(|error| error.computed),
+        error: signed.abs(),
+        signed,
+        spread,
+        ..errors[0].clone()
+    })
+}
+
+/// A scalar, or a work counter, over seeds.
+///
+/// # Errors
+/// A run without it, or a value that is not finite.
+pub fn mean_scalar(replicates: &Replicates, of: &str) -> Result<Mean, Undecided> {
+    let mut values = Vec::new();
+    let mut unit = String::new();
+    for run in &replicates.runs {
+        let counter = run.counters.iter().find(|(name, _)| name == of);
+        let (value, its_unit) = match (run.scalar(of), counter) {
+            (Some(scalar), _) => (scalar.value, scalar.unit.as_str()),
+            (None, Some((_, count))) => (*count as f64, "1"),
+            (None, None) => return Err(missing(run, of)),
+        };
+        if !value.is_finite() {
+            return Err(Undecided(format!("{of} is {value}")));
+        }
+        values.push(value);
+        unit = its_unit.to_string();
+    }
+    let (value, spread) = mean(values.into_iter());
+    Ok(Mean { value, spread, unit })
+}
+
+/// Times, values and unit of a time series.
+pub(super) fn series<'a>(run: &'a Run, of: &str) -> Result<(&'a [f64], &'a [f64], &'a str), Undecided> {
+    let table: Option<&Table> = run.table("time_series");
+    let column = table.and_then(|table| table.column(of));
+    match (table.and_then(|table| table.columns.first()), column) {
+        (Some(time), Some(column)) if !time.values.is_empty() => {
+            Ok((&time.values, &column.values, &column.unit))
+        }
+        _ => Err(missing(run, of)),
+    }
+}
+
+fn missing(run: &Run, of: &str) -> Undecided {
+    let mut names: Vec<&str> = run.scalars.iter().map(|scalar| scalar.name.as_str()).collect();
+    if let Some(table) = run.table("time_series") {
+        names.extend(table.columns.iter().skip(1).map(|column| column.name.as_str()));
+    }
+    let known = if names.is_empty() {
+        "nothing".to_string()
+    } else {
+        names.join(", ")
+    };
+    Undecided(format!(
+        "the run has no `{of}`, only {known}; add it to `observe` and run the study again"
+    ))
+}
+
+/// The place where found and expected are farthest apart.
+fn largest(
+    (found, expected): (Vec<f64>, Vec<f64>),
+    unit: &str,
+    source: String,
+) -> Result<PointError, Undecided> {
+    let scale = expected
+        .iter()
+        .fold(0.0, |scale: f64, value| scale.max(value.abs()));
+    let pairs = found.iter().zip(&expected);
+    // A difference that is not a number ranks above all others, so that it is seen.
+    let worst = pairs.max_by(|a, b| (a.0 - a.1).abs().total_cmp(&(b.0 - b.1).abs()));
+    let (&computed, &expected) = worst.ok_or_else(|| Undecided("the series is empty".to_string()))?;
+    let error = (computed - expected).abs() / scale;
+    let signed = if found.len() == 1 {
+        computed / expected - 1.0
+    } else {
+        error
+    };
+    Ok(PointError {
+        expected,
+        computed,
+        error,
+        signed,
+        spread: 0.0,
+        unit: unit.to_string(),
+        source,
+    })
+}
+
+/// Mean and standard error of the mean.
+fn mean(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
+    let count = values.clone().count() as f64;
+    let mean = values.clone().sum::<f64>() / count;
+    if count < 2.0 {
+        return (mean, 0.0);
+    }
+    let squares: f64 = values.map(|value| (value - mean).powi(2)).sum();
+    (mean, (squares / (count - 1.0) / count).sqrt())
+}

@@ -1,0 +1,305 @@
+//! Published data: the CSV tables and citations of a `references/` folder.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+
+use super::ReferenceError;
+
+/// An opened `references/` folder.
+pub struct Library {
+    root: PathBuf,
+    index: Index,
+}
+
+#[derive(Deserialize)]
+struct Index {
+    citations: BTreeMap<String, String>,
+    datasets: Vec<DataSetEntry>,
+}
+
+/// What `references.yaml` says of a data set.
+#[derive(Clone, Debug, Deserialize)]
+pub struct DataSetEntry {
+    /// File name inside the folder.
+    pub file: String,
+    pub title: String,
+    pub citation_keys: Vec<String>,
+    pub provenance: String,
+    pub confidence: String,
+}
+
+/// A table of text, numbers on demand. Rows count from zero.
+#[derive(Clone, Debug)]
+pub struct DataSet {
+    /// Where it was read from, for messages.
+    name: String,
+    header: Vec<String>,
+    rows: Vec<Vec<String>>,
+}
+
+impl Library {
+    /// Opens the folder and reads its `references.yaml`.
+    ///
+    /// # Errors
+    /// A missing or malformed index.
+    pub fn open(root: &Path) -> Result<Library, ReferenceError> {
+        let path = root.join("references.yaml");
+        let text = read(&path)?;
+        let index = serde_saphyr::from_str(&text)
+            .map_err(|error| ReferenceError(format!("{}: {error}", path.display())))?;
+        Ok(Library {
+            root: root.to_path_buf(),
+            index,
+        })
+    }
+
+    /// Every data set of the index.
+    pub fn datasets(&self) -> &[DataSetEntry] {
+        &self.index.datasets
+    }
+
+    /// The full citation behind a key.
+    pub fn citation(&self, key: &str) -> Option<&str> {
+        self.index.citations.get(key).map(String::as_str)
+    }
+
+    /// The citations of a data set, one line.
+    ///
+    /// # Errors
+    /// A file or a key that is not in the index.
+    pub fn source(&self, file: &str) -> Result<String, ReferenceError> {
+        let keys = &self.entry(file)?.citation_keys;
+        let citations: Result<Vec<_>, _> = keys
+            .iter()
+            .map(|key| {
+                self.citation(key).ok_or_else(|| {
+                    ReferenceError(format!(
+                        "references.yaml: {file} cites `{key}`, which has no citation"
+                    ))
+                })
+            })
+            .collect();
+        Ok(citations?.join("; "))
+    }
+
+    /// Reads a data set of the index.
+    ///
+    /// # Errors
+    /// A file that is not in the index, cannot be read, or is no table.
+    pub fn dataset(&self, file: &str) -> Result<DataSet, ReferenceError> {
+        let path = self.root.join(&self.entry(file)?.file);
+        DataSet::parse(file, &read(&path)?)
+    }
+
+    fn entry(&self, file: &str) -> Result<&DataSetEntry, ReferenceError> {
+        self.datasets()
+            .iter()
+            .find(|entry| entry.file == file)
+            .ok_or_else(|| ReferenceError(format!("references.yaml has no data set `{file}`")))
+    }
+}
+
+impl DataSet {
+    /// Reads CSV text with one header line; quotes as in RFC 4180.
+    ///
+    /// # Errors
+    /// No header, or a row with more or fewer cells than the header.
+    pub fn parse(name: &str, text: &str) -> Result<DataSet, ReferenceError> {
+        let mut records = records(text).into_iter();
+        let header = records
+            .next()
+            .ok_or_else(|| ReferenceError(format!("{name}: empty, a header line is needed")))?;
+        let rows: Vec<_> = records.collect();
+        for (index, row) in rows.iter().enumerate() {
+            if row.len() != header.len() {
+                return Err(ReferenceError(format!(
+                    "{name}: data row {} has {} cells, the header has {}",
+                    index + 1,
+                    row.len(),
+                    header.len()
+                )));
+            }
+        }
+        Ok(DataSet {
+            name: name.to_string(),
+            header,
+            rows,
+        })
+    }
+
+    pub fn columns(&self) -> &[String] {
+        &self.header
+    }
+
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// A column as text.
+    ///
+    /// # Errors
+    /// An unknown column.
+    pub fn texts(&self, column: &str) -> Result<Vec<&str>, ReferenceError> {
+        let index = self
+            .header
+            .iter()
+            .position(|name| name == column)
+            .ok_or_else(|| {
+                ReferenceError(format!(
+                    "{}: no column `{column}`; there are {}",
+                    self.name,
+                    self.header.join(", ")
+                ))
+            })?;
+        Ok(self.rows.iter().map(|row| row[index].as_str()).collect())
+    }
+
+    /// A column as numbers.
+    ///
+    /// # Errors
+    /// An unknown column, or a cell that is no number.
+    pub fn numbers(&self, column: &str) -> Result<Vec<f64>, ReferenceError> {
+        self.texts(column)?
+            .into_iter()
+            .map(|text| {
+                text.parse().map_err(|_| {
+                    ReferenceError(format!(
+                        "{}: `{text}` in column `{column}` is no number",
+                        self.name
+                    ))
+                })
+            })
+            .collect()
+    }
+}
+
+fn read(path: &Path) -> Result<String, ReferenceError> {
+    std::fs::read_to_string(path).map_err(|error| ReferenceError(format!("{}: {error}", path.display())))
+}
+
+/// Splits CSV text into records; blank lines are skipped.
+fn records(text: &str) -> Vec<Vec<String>> {
+    let mut records = Vec::new();
+    let (mut record, mut cell, mut quoted) = (Vec::new(), String::new(), false);
+    let mut characters = text.chars().peekable();
+    while let Some(character) = characters.next() {
+        match character {
+            '"' if quoted && characters.peek() == Some(&'"') => {
+                characters.next();
+                cell.push('"');
+            }
+            '"' => quoted = !quoted,
+            ',' if !quoted => record.push(std::mem::take(&mut cell)),
+            '\r' if !quoted => {}
+            '\n' if !quoted => {
+                if !(record.is_empty() && cell.is_empty()) {
+                    record.push(std::mem::take(&mut cell));
+                    records.push(std::mem::take(&mut record));
+                }
+            }
+            other => cell.push(other),
+        }
+    }
+    if !(record.is_empty() && cell.is_empty()) {
+        record.push(cell);
+        records.push(record);
+    }
+    records
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// A data set of the repository, for tests that hold a solution to it.
+    pub struct Printed(DataSet);
+
+    pub fn dataset(file: &str) -> Printed {
+        Printed(library().dataset(file).unwrap())
+    }
+
+    impl Printed {
+        pub fn rows(&self) -> usize {
+            assert!(!self.0.is_empty());
+            self.0.len()
+        }
+
+        pub fn text(&self, column: &str, row: usize) -> &str {
+            self.0.texts(column).unwrap()[row]
+        }
+
+        pub fn number(&self, column: &str, row: usize) -> f64 {
+            self.0.numbers(column).unwrap()[row]
+        }
+    }
+
+    /// Asserts that a value rounds to a number printed with six significant digits, trailing zeros dropped;
+    /// a tie may be rounded either way.
+    pub fn assert_printed(value: f64, printed: &str) {
+        let expected: f64 = printed.parse().unwrap();
+        let unit = 10f64.powf(expected.abs().log10().floor() - 5.0);
+        assert!(
+            (value - expected).abs() <= 0.500_001 * unit,
+            "{value} is not {printed}"
+        );
+    }
+
+    fn library() -> Library {
+        Library::open(&folder()).unwrap()
+    }
+
+    fn folder() -> PathBuf {
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("references")
+    }
+
+    #[test]
+    fn every_table_has_an_entry_and_every_entry_a_readable_table() {
+        let library = library();
+        let mut files: Vec<String> = std::fs::read_dir(folder())
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .filter(|name| name.ends_with(".csv"))
+            .collect();
+        files.sort();
+        let mut entries: Vec<String> = library
+            .datasets()
+            .iter()
+            .map(|entry| entry.file.clone())
+            .collect();
+        entries.sort();
+        assert_eq!(files, entries);
+        for file in files {
+            assert!(!library.dataset(&file).unwrap().is_empty());
+            assert!(!library.source(&file).unwrap().is_empty());
+        }
+    }
+
+    #[test]
+    fn quoted_cells_keep_commas_quotes_and_line_ends() {
+        let table = DataSet::parse("x", "a,b\r\n\"1,5\",\"say \"\"so\"\"\nthen\"\n\n2,\n").unwrap();
+        assert_eq!(table.texts("a").unwrap(), ["1,5", "2"]);
+        assert_eq!(table.texts("b").unwrap(), ["say \"so\"\nthen", ""]);
+    }
+
+    #[test]
+    fn faults_name_the_place() {
+        let table = DataSet::parse("x.csv", "a,b\n1,two\n").unwrap();
+        assert!(table.numbers("b").unwrap_err().0.contains("`two` in column `b`"));
+        assert!(table.texts("c").unwrap_err().0.contains("a, b"));
+        assert!(
+            DataSet::parse("x.csv", "a,b\n1\n")
+                .unwrap_err()
+                .0
+                .contains("row 1")
+        );
+        assert!(DataSet::parse("x.csv", "").is_err());
+        assert!(library().dataset("nothing.csv").is_err());
+        assert!(Library::open(Path::new("nowhere")).is_err());
+    }
+}

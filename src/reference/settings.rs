@@ -1,0 +1,75 @@
+//! What a solution reads from the settings of a scene.
+
+use serde_json::Value;
+
+use super::drag_law::DragLaw;
+use super::grain::Grain;
+use super::{Facts, ReferenceError};
+
+/// A scene's settings, opened.
+pub struct Case<'a> {
+    /// `single_sphere`, `constant_porosity_block`, `rehearsal`.
+    pub kind: &'a str,
+    body: &'a Value,
+}
+
+impl<'a> Case<'a> {
+    pub fn of(facts: &Facts<'a>) -> Result<Self, ReferenceError> {
+        let (kind, body) = single(facts.settings)
+            .ok_or_else(|| ReferenceError("the run's settings do not name one scene".to_string()))?;
+        Ok(Case { kind, body })
+    }
+
+    /// Refuses a scene the solution `name` does not hold for.
+    pub fn only(&self, name: &str, kind: &str) -> Result<(), ReferenceError> {
+        if self.kind == kind {
+            return Ok(());
+        }
+        Err(ReferenceError(format!(
+            "`{name}` holds for the scene `{kind}`, not for `{}`",
+            self.kind
+        )))
+    }
+
+    /// A number at a dotted path.
+    pub fn number(&self, path: &str) -> Result<f64, ReferenceError> {
+        self.at(path)
+            .and_then(Value::as_f64)
+            .ok_or_else(|| ReferenceError(format!("the settings of `{}` have no number `{path}`", self.kind)))
+    }
+
+    /// A word at a dotted path, or the one key of a map there.
+    pub fn word(&self, path: &str) -> Option<&'a str> {
+        let value = self.at(path)?;
+        value.as_str().or_else(|| single(value).map(|(key, _)| key))
+    }
+
+    /// Grain, medium and gravity, whatever the fluid model.
+    pub fn grain(&self) -> Result<Grain, ReferenceError> {
+        let model = self.word("fluid").unwrap_or("sph");
+        Ok(Grain {
+            diameter: self.number("grains.diameter")?,
+            density: self.number("grains.density")?,
+            fluid_density: self.number(&format!("fluid.{model}.density"))?,
+            viscosity: self.number(&format!("fluid.{model}.viscosity"))?,
+            gravity: self.number("gravity")?,
+        })
+    }
+
+    pub fn law(&self) -> Result<DragLaw, ReferenceError> {
+        let word = self.word("drag").unwrap_or_default();
+        DragLaw::named(word).ok_or_else(|| ReferenceError(format!("no drag law is called `{word}`")))
+    }
+
+    fn at(&self, path: &str) -> Option<&'a Value> {
+        path.split('.').try_fold(self.body, |value, key| value.get(key))
+    }
+}
+
+fn single(value: &Value) -> Option<(&str, &Value)> {
+    let mut fields = value.as_object()?.iter();
+    match (fields.next(), fields.next()) {
+        (Some((key, body)), None) => Some((key, body)),
+        _ => None,
+    }
+}
