@@ -1,0 +1,145 @@
+//! One file per figure kind: from runs to a drawing, a table and notes for the caption.
+
+pub mod error_against_resolution;
+mod lines;
+pub mod profile;
+pub mod run_time_against_error;
+pub mod time_series;
+
+use super::canvas::Area;
+use super::numbers::Numbers;
+use super::selection;
+use super::{ReportError, format};
+use crate::store::model::Run;
+use crate::study::model::{Figure, FigureKind, Study};
+
+/// What a figure is drawn from.
+pub struct Material<'a> {
+    pub study: &'a Study,
+    pub figure: &'a Figure,
+    /// The completed runs it shows.
+    pub runs: Vec<&'a Run>,
+    pub numbers: &'a Numbers<'a>,
+}
+
+/// A drawn figure with everything that stands around it.
+#[derive(Clone, Debug)]
+pub struct Plate {
+    pub id: String,
+    pub title: String,
+    pub svg: String,
+    /// Sentences below the figure.
+    pub notes: Vec<String>,
+    pub table: Table,
+    /// Estimated outlines of the texts in the figure and its height, to check that nothing is cut.
+    pub texts: Vec<(String, Area)>,
+    pub height: i32,
+}
+
+/// The numbers behind a figure, SI units in the head.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    pub head: Vec<String>,
+    pub rows: Vec<Vec<Cell>>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cell {
+    Number(f64),
+    Words(String),
+    Empty,
+}
+
+impl From<Option<f64>> for Cell {
+    fn from(value: Option<f64>) -> Cell {
+        value.map_or(Cell::Empty, Cell::Number)
+    }
+}
+
+impl Cell {
+    fn exact(&self) -> String {
+        match self {
+            Cell::Number(value) => format::exact(*value),
+            Cell::Words(words) if words.contains([',', '"', '\n']) => {
+                format!("\"{}\"", words.replace('"', "\"\""))
+            }
+            Cell::Words(words) => words.clone(),
+            Cell::Empty => String::new(),
+        }
+    }
+
+    pub fn shown(&self) -> String {
+        match self {
+            Cell::Number(value) => format::number(*value),
+            Cell::Words(words) => words.clone(),
+            Cell::Empty => "–".to_owned(),
+        }
+    }
+}
+
+impl Table {
+    pub fn new(head: &[&str]) -> Table {
+        Table { head: head.iter().map(|&name| name.to_owned()).collect(), rows: Vec::new() }
+    }
+
+    /// Comma-separated, all digits.
+    pub fn csv(&self) -> String {
+        let line = |cells: Vec<String>| cells.join(",") + "\n";
+        let head = self.head.iter().map(|name| Cell::Words(name.clone()).exact()).collect();
+        let rows = self.rows.iter().map(|row| line(row.iter().map(Cell::exact).collect()));
+        line(head) + &rows.collect::<String>()
+    }
+}
+
+/// Draws one figure of the study.
+///
+/// # Errors
+/// Says what is missing when there is nothing to draw.
+pub fn draw(
+    study: &Study,
+    runs: &[Run],
+    figure: &Figure,
+    numbers: &Numbers,
+) -> Result<Plate, ReportError> {
+    let chosen = selection::chosen(runs, &figure.selection);
+    if chosen.is_empty() {
+        return Err(ReportError("no completed run belongs to this figure".to_owned()));
+    }
+    let material = Material { study, figure, runs: chosen, numbers };
+    match &figure.kind {
+        FigureKind::TimeSeries { of, against, group } => {
+            time_series::draw(&material, of, against.as_deref(), group.as_deref())
+        }
+        FigureKind::ErrorAgainstResolution { of, against, over, group } => {
+            error_against_resolution::draw(&material, of, against, over, group.as_deref())
+        }
+        FigureKind::RunTimeAgainstError { of, against, group } => {
+            run_time_against_error::draw(&material, of, against, group.as_deref())
+        }
+        FigureKind::Profile { of, group } => profile::draw(&material, of, group.as_deref()),
+    }
+}
+
+impl Material<'_> {
+    /// The title given in the study, or the one the kind suggests.
+    fn title(&self, suggested: String) -> String {
+        self.figure.title.clone().unwrap_or_else(|| format::sentence(&suggested))
+    }
+
+    /// What tells the runs of one group apart, for labels: the axes that vary, without `without`.
+    fn distinction(&self, run: &Run, names: &[String]) -> String {
+        let parts: Vec<String> = names
+            .iter()
+            .filter_map(|name| run.axis(name).map(|value| selection::named(self.study, name, value)))
+            .collect();
+        parts.join(", ")
+    }
+}
+
+/// Sorted, without repetition: sources for a caption.
+pub(super) fn distinct(mut texts: Vec<String>) -> Vec<String> {
+    texts.retain(|text| !text.is_empty());
+    texts.sort();
+    texts.dedup();
+    texts
+}
