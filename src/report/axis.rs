@@ -32,15 +32,23 @@ impl Scale {
         let margin = 0.05 * (high - low);
         let low = if low == 0.0 { 0.0 } else { low - margin };
         let high = high + margin;
-        Scale { logarithmic: false, low, high, ticks: linear_ticks(low, high) }
+        Scale {
+            logarithmic: false,
+            low,
+            high,
+            ticks: linear_ticks(low, high),
+        }
     }
 
     /// Exactly from the smallest to the largest value: the time axis of a series.
     pub fn tight(values: impl IntoIterator<Item = f64>) -> Scale {
         match range(values) {
-            Some((low, high)) if high > low => {
-                Scale { logarithmic: false, low, high, ticks: linear_ticks(low, high) }
-            }
+            Some((low, high)) if high > low => Scale {
+                logarithmic: false,
+                low,
+                high,
+                ticks: linear_ticks(low, high),
+            },
             Some((low, _)) => Scale::linear([low]),
             None => Scale::linear([]),
         }
@@ -53,7 +61,12 @@ impl Scale {
         let spread = (3.0 / (high / low)).max(1.0).sqrt();
         let margin = (high / low).powf(0.07).max(1.12) * spread;
         let (low, high) = (low / margin, high * margin);
-        Scale { logarithmic: true, low, high, ticks: logarithmic_ticks(low, high) }
+        Scale {
+            logarithmic: true,
+            low,
+            high,
+            ticks: logarithmic_ticks(low, high),
+        }
     }
 
     /// Ticks at the values themselves, where they are few: a sweep's own resolutions.
@@ -67,7 +80,10 @@ impl Scale {
         if values.len() > 1 && values.len() <= 9 && apart {
             self.ticks = values
                 .into_iter()
-                .map(|at| Tick { at, label: Some(format::number(at)) })
+                .map(|at| Tick {
+                    at,
+                    label: Some(format::number(at)),
+                })
                 .collect();
         }
         self
@@ -87,10 +103,13 @@ impl Scale {
 }
 
 fn range(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
-    values.into_iter().filter(|value| value.is_finite()).fold(None, |range, value| match range {
-        None => Some((value, value)),
-        Some((low, high)) => Some((low.min(value), high.max(value))),
-    })
+    values
+        .into_iter()
+        .filter(|value| value.is_finite())
+        .fold(None, |range, value| match range {
+            None => Some((value, value)),
+            Some((low, high)) => Some((low.min(value), high.max(value))),
+        })
 }
 
 /// Steps of 1, 2 or 5 times a power of ten, about five of them.
@@ -98,16 +117,29 @@ fn linear_ticks(low: f64, high: f64) -> Vec<Tick> {
     let rough = (high - low) / 5.0;
     let power = 10f64.powf(rough.log10().floor());
     let step = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * power);
-    let step = step.into_iter().find(|step| *step >= rough * 0.999).unwrap_or(10.0 * power);
+    let step = step
+        .into_iter()
+        .find(|step| *step >= rough * 0.999)
+        .unwrap_or(10.0 * power);
     let digits = (-(step.log10() + 1e-9).floor()).max(0.0) as usize;
-    let (first, last) = ((low / step - 1e-9).ceil() as i64, (high / step + 1e-9).floor() as i64);
+    let (first, last) = (
+        (low / step - 1e-9).ceil() as i64,
+        (high / step + 1e-9).floor() as i64,
+    );
     let large = low.abs().max(high.abs()) >= 1e5;
     let label = |at: f64| {
-        if digits > 5 || large { format::number(at) } else { format!("{at:.digits$}").replace('-', "−") }
+        if digits > 5 || large {
+            format::number(at)
+        } else {
+            format!("{at:.digits$}").replace('-', "−")
+        }
     };
     (first..=last)
         .map(|index| index as f64 * step)
-        .map(|at| Tick { at, label: Some(label(at)) })
+        .map(|at| Tick {
+            at,
+            label: Some(label(at)),
+        })
         .collect()
 }
 
@@ -156,13 +188,20 @@ mod tests {
     use super::*;
 
     fn labels(scale: &Scale) -> Vec<String> {
-        scale.ticks().iter().filter_map(|tick| tick.label.clone()).collect()
+        scale
+            .ticks()
+            .iter()
+            .filter_map(|tick| tick.label.clone())
+            .collect()
     }
 
     #[test]
     fn a_linear_axis_counts_in_ones_twos_and_fives() {
         assert_eq!(labels(&Scale::tight([0.0, 62.0])), ["0", "20", "40", "60"]);
-        assert_eq!(labels(&Scale::tight([-0.1, 0.1])), ["−0.10", "−0.05", "0.00", "0.05", "0.10"]);
+        assert_eq!(
+            labels(&Scale::tight([-0.1, 0.1])),
+            ["−0.10", "−0.05", "0.00", "0.05", "0.10"]
+        );
     }
 
     #[test]
@@ -180,7 +219,13 @@ mod tests {
 
     #[test]
     fn every_axis_holds_its_values_and_two_ticks() {
-        for values in [vec![3.0], vec![0.0, 0.0], vec![1e-9, 2e-9], vec![4.9, 4.95], vec![]] {
+        for values in [
+            vec![3.0],
+            vec![0.0, 0.0],
+            vec![1e-9, 2e-9],
+            vec![4.9, 4.95],
+            vec![],
+        ] {
             for scale in [Scale::linear(values.clone()), Scale::logarithmic(values.clone())] {
                 assert!(labels(&scale).len() >= 2, "{values:?} {scale:?}");
                 for value in values.iter().filter(|value| !scale.logarithmic || **value > 0.0) {
@@ -193,8 +238,14 @@ mod tests {
     #[test]
     fn a_sweep_has_ticks_at_its_own_values() {
         let values = [1.5, 2.0, 3.0, 4.0, 6.0];
-        assert_eq!(labels(&Scale::logarithmic(values).with_ticks_at(&values)), ["1.5", "2", "3", "4", "6"]);
+        assert_eq!(
+            labels(&Scale::logarithmic(values).with_ticks_at(&values)),
+            ["1.5", "2", "3", "4", "6"]
+        );
         let crowded = [1.0, 1.001, 1.002, 50.0];
-        assert_ne!(labels(&Scale::logarithmic(crowded).with_ticks_at(&crowded)).len(), 4);
+        assert_ne!(
+            labels(&Scale::logarithmic(crowded).with_ticks_at(&crowded)).len(),
+            4
+        );
     }
 }

@@ -26,7 +26,11 @@ pub fn of(runs: &[Run]) -> Facts {
     let origin = || runs.iter().map(|run| &run.timing.provenance);
     let commit = |commit: &str, dirty: bool| {
         let short: String = commit.chars().take(SHORT).collect();
-        if dirty && !short.is_empty() { format!("{short} (modified)") } else { short }
+        if dirty && !short.is_empty() {
+            format!("{short} (modified)")
+        } else {
+            short
+        }
     };
     Facts {
         commits: distinct(origin().map(|origin| commit(&origin.commit, origin.dirty))),
@@ -34,14 +38,20 @@ pub fn of(runs: &[Run]) -> Facts {
         versions: distinct(origin().map(|origin| origin.version.clone())),
         compilers: distinct(origin().map(|origin| origin.compiler.clone())),
         simulators: distinct(origin().map(|origin| origin.simulator_hash.chars().take(SHORT).collect())),
-        newest: origin().map(|origin| &origin.finished).filter(|text| !text.is_empty()).max().map(|text| date(text)),
+        newest: origin()
+            .map(|origin| &origin.finished)
+            .filter(|text| !text.is_empty())
+            .max()
+            .map(|text| date(text)),
     }
 }
 
 /// `2026-05-01 12:30 UTC` for `2026-05-01T12:30:11Z`; other forms are left as they are.
 fn date(finished: &str) -> String {
     match finished.strip_suffix('Z').and_then(|text| text.split_once('T')) {
-        Some((day, time)) if time.len() >= 5 && time.is_char_boundary(5) => format!("{day} {} UTC", &time[..5]),
+        Some((day, time)) if time.len() >= 5 && time.is_char_boundary(5) => {
+            format!("{day} {} UTC", &time[..5])
+        }
         _ => finished.to_owned(),
     }
 }

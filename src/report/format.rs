@@ -13,37 +13,62 @@ impl Unit {
     /// Relative errors: in percent, as long as that is readable.
     pub fn of_errors(largest: f64) -> Unit {
         if largest >= 1e-6 || largest == 0.0 {
-            return Unit { factor: 100.0, label: "%".to_owned() };
+            return Unit {
+                factor: 100.0,
+                label: "%".to_owned(),
+            };
         }
-        Unit { factor: 1.0, label: String::new() }
+        Unit {
+            factor: 1.0,
+            label: String::new(),
+        }
     }
 
     /// ` (mm/s)`, or nothing.
     pub fn in_brackets(&self) -> String {
-        if self.label.is_empty() { String::new() } else { format!(" ({})", self.label) }
+        if self.label.is_empty() {
+            String::new()
+        } else {
+            format!(" ({})", self.label)
+        }
     }
 }
 
 /// Units that take a prefix on their first letter. A kilogram has one already.
 const PREFIXED: [&str; 9] = ["m", "s", "m/s", "m/s2", "N", "Pa", "J", "W", "N/m"];
-const PREFIXES: [(f64, &str); 7] =
-    [(1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"), (1e-12, "p")];
+const PREFIXES: [(f64, &str); 7] = [
+    (1e6, "M"),
+    (1e3, "k"),
+    (1.0, ""),
+    (1e-3, "m"),
+    (1e-6, "µ"),
+    (1e-9, "n"),
+    (1e-12, "p"),
+];
 
 /// The readable form of an SI unit for numbers up to `largest`.
 pub fn readable(unit: &str, largest: f64) -> Unit {
-    let plain = Unit { factor: 1.0, label: pretty_unit(unit) };
+    let plain = Unit {
+        factor: 1.0,
+        label: pretty_unit(unit),
+    };
     let length = unit.starts_with('m');
     let largest = largest.abs();
     if !PREFIXED.contains(&unit) || largest == 0.0 || !largest.is_finite() {
         return plain;
     }
     // Nobody measures speed in km/s here, or time in ks.
-    let allowed = PREFIXES.iter().filter(|(size, _)| !(*size > 1.0 && (length || unit == "s")));
-    let best = allowed.clone().find(|(size, _)| largest >= *size * 0.999_999).or(allowed.last());
+    let allowed: Vec<_> = PREFIXES
+        .iter()
+        .filter(|(size, _)| *size <= 1.0 || !(length || unit == "s"))
+        .collect();
+    let fitting = allowed.iter().find(|(size, _)| largest >= *size * 0.999_999);
+    let best = fitting.or(allowed.last());
     match best {
-        Some((size, prefix)) => {
-            Unit { factor: 1.0 / size, label: format!("{prefix}{}", pretty_unit(unit)) }
-        }
+        Some((size, prefix)) => Unit {
+            factor: 1.0 / size,
+            label: format!("{prefix}{}", pretty_unit(unit)),
+        },
         None => plain,
     }
 }
@@ -56,15 +81,19 @@ pub fn pretty_unit(unit: &str) -> String {
     }
 }
 
-/// `spacing / diameter` for `spacing_over_diameter`.
+/// `spacing / diameter` for `spacing_over_diameter`; people keep their capitals.
 pub fn words(name: &str) -> String {
-    name.replace("_over_", " / ").replace('_', " ")
+    name.replace("_over_", " / ")
+        .replace('_', " ")
+        .replace("stokes", "Stokes")
 }
 
 /// First letter large.
 pub fn sentence(text: &str) -> String {
     let mut letters = text.chars();
-    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+    letters.next().map_or(String::new(), |first| {
+        first.to_uppercase().chain(letters).collect()
+    })
 }
 
 /// Four significant digits.
@@ -77,7 +106,7 @@ pub fn number(value: f64) -> String {
     }
     let exponent = value.abs().log10().floor() as i32;
     if (-4..6).contains(&exponent) {
-        return signed(&trimmed(&format!("{value:.*}", (3 - exponent).max(0) as usize)));
+        return signed(trimmed(&format!("{value:.*}", (3 - exponent).max(0) as usize)));
     }
     let mantissa = format!("{:.3}", value / 10f64.powi(exponent));
     signed(&format!("{} × {}", trimmed(&mantissa), power_of_ten(exponent)))
@@ -86,7 +115,11 @@ pub fn number(value: f64) -> String {
 /// An exact, shortest number for tables that programs read.
 pub fn exact(value: f64) -> String {
     let size = value.abs();
-    if size != 0.0 && !(1e-5..1e15).contains(&size) { format!("{value:e}") } else { format!("{value}") }
+    if size != 0.0 && !(1e-5..1e15).contains(&size) {
+        format!("{value:e}")
+    } else {
+        format!("{value}")
+    }
 }
 
 /// A fraction in percent with three significant digits.
@@ -101,7 +134,15 @@ pub fn percent(fraction: f64) -> String {
         let mantissa = fraction / 10f64.powi(exponent);
         return signed(&format!("{mantissa:.1} × {}", power_of_ten(exponent)));
     }
-    let digits = if size >= 100.0 { 0 } else if size >= 10.0 { 1 } else if size >= 0.1 { 2 } else { 4 };
+    let digits = if size >= 100.0 {
+        0
+    } else if size >= 10.0 {
+        1
+    } else if size >= 0.1 {
+        2
+    } else {
+        4
+    };
     signed(&format!("{} %", trimmed(&format!("{value:.digits$}"))))
 }
 
@@ -147,7 +188,7 @@ pub fn count(value: u64) -> String {
     let digits = value.to_string();
     let mut text = String::new();
     for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index) % 3 == 0 && digits.len() > 4 {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) && digits.len() > 4 {
             text.push('\u{202f}');
         }
         text.push(digit);
@@ -169,7 +210,11 @@ pub fn thesis_figure(id: &str) -> String {
 }
 
 fn trimmed(text: &str) -> &str {
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        text
+    }
 }
 
 /// With a true minus sign.
@@ -183,13 +228,25 @@ mod tests {
 
     #[test]
     fn prefixes_follow_the_range() {
-        assert_eq!(readable("m/s", 0.0085), Unit { factor: 1000.0, label: "mm/s".into() });
+        assert_eq!(
+            readable("m/s", 0.0085),
+            Unit {
+                factor: 1000.0,
+                label: "mm/s".into()
+            }
+        );
         assert_eq!(readable("s", 0.062).label, "ms");
         assert_eq!(readable("m", 5e-5).label, "µm");
         assert_eq!(readable("m", 4000.0).label, "m");
         assert_eq!(readable("Pa", 58_000.0).label, "kPa");
         assert_eq!(readable("kg/m3", 0.2).label, "kg/m³");
-        assert_eq!(readable("1", 0.002), Unit { factor: 1.0, label: String::new() });
+        assert_eq!(
+            readable("1", 0.002),
+            Unit {
+                factor: 1.0,
+                label: String::new()
+            }
+        );
     }
 
     #[test]

@@ -23,14 +23,23 @@ pub fn write(study: &Study, runs: &[Run], verdicts: &[Verdict]) -> Result<String
     }));
     let mut report = Report::new(study.name.clone());
     report.add_test_suites([expectations, points]);
-    report.to_string().map_err(|error| ReportError(format!("junit.xml cannot be written: {error}")))
+    report
+        .to_string()
+        .map_err(|error| ReportError(format!("junit.xml cannot be written: {error}")))
 }
 
 fn status(verdict: &Verdict) -> TestCaseStatus {
     let message = || {
-        let error = verdict.error.map(|error| format!("error {}, ", format::percent(error)));
+        let error = verdict
+            .error
+            .map(|error| format!("error {}, ", format::percent(error)));
         let reason = verdict.reason.as_ref().map(|reason| format!(": {reason}"));
-        format!("{}admitted {}{}", error.unwrap_or_default(), verdict.band, reason.unwrap_or_default())
+        format!(
+            "{}admitted {}{}",
+            error.unwrap_or_default(),
+            verdict.band,
+            reason.unwrap_or_default()
+        )
     };
     let mut status = match (&verdict.informative, verdict.verdict) {
         (_, Outcome::Holds) => return TestCaseStatus::success(),

@@ -34,12 +34,7 @@ pub struct ReportError(pub String);
 ///
 /// # Errors
 /// A file that cannot be written. A figure that cannot be drawn is no error: the page says why.
-pub fn render(
-    study: &Study,
-    runs: &[Run],
-    verdicts: &[Verdict],
-    out: &Path,
-) -> Result<PathBuf, ReportError> {
+pub fn render(study: &Study, runs: &[Run], verdicts: &[Verdict], out: &Path) -> Result<PathBuf, ReportError> {
     render_with(study, runs, verdicts, out, &Numbers::JUDGED)
 }
 
@@ -59,13 +54,19 @@ fn render_with(
         .collect();
     for plate in plates.iter().filter_map(|(_, plate)| plate.as_ref().ok()) {
         write(&folder.join(format!("{}.svg", plate.id)), plate.svg.as_bytes())?;
-        write(&folder.join(format!("{}.csv", plate.id)), plate.table.csv().as_bytes())?;
+        write(
+            &folder.join(format!("{}.csv", plate.id)),
+            plate.table.csv().as_bytes(),
+        )?;
     }
     let mut frame = table::frame(study, runs)?;
     let effort = table::effort(&frame, &table::counters(runs))?;
     write(&out.join("runs.csv"), &table::csv(&mut frame)?)?;
     write(&out.join("verdicts.json"), &json(verdicts)?)?;
-    write(&out.join("junit.xml"), junit::write(study, runs, verdicts)?.as_bytes())?;
+    write(
+        &out.join("junit.xml"),
+        junit::write(study, runs, verdicts)?.as_bytes(),
+    )?;
     let page = page::Page::new(study, runs, verdicts, &plates, &effort);
     write(&out.join("report.md"), page.markdown()?.as_bytes())?;
     let index = out.join("index.html");
@@ -86,7 +87,10 @@ fn clear(folder: &Path) -> Result<(), ReportError> {
     std::fs::create_dir_all(folder).map_err(failed)?;
     for entry in std::fs::read_dir(folder).map_err(failed)? {
         let path = entry.map_err(failed)?.path();
-        if path.extension().is_some_and(|kind| kind == "svg" || kind == "csv") {
+        if path
+            .extension()
+            .is_some_and(|kind| kind == "svg" || kind == "csv")
+        {
             std::fs::remove_file(&path).map_err(failed)?;
         }
     }
@@ -95,6 +99,9 @@ fn clear(folder: &Path) -> Result<(), ReportError> {
 
 fn write(path: &Path, bytes: &[u8]) -> Result<(), ReportError> {
     std::fs::write(path, bytes).map_err(|error| {
-        ReportError(format!("cannot write {}: {error}; choose another folder with --out", path.display()))
+        ReportError(format!(
+            "cannot write {}: {error}; choose another folder with --out",
+            path.display()
+        ))
     })
 }

@@ -11,6 +11,8 @@ pub struct PointError {
     pub expected: Option<f64>,
     /// Not negative, dimensionless.
     pub error: f64,
+    /// With its sign, for orders.
+    pub signed: f64,
     /// Citation of the reference.
     pub source: String,
 }
@@ -34,13 +36,13 @@ pub struct Curve {
     pub source: String,
 }
 
-/// One resolution of a sweep.
+/// One resolution of a sweep; a mean over replicates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Resolved {
     pub resolution: f64,
     /// Value of the quantity, where it is a single one.
     pub value: Option<f64>,
-    /// Relative error.
+    /// Relative error with its sign.
     pub error: f64,
 }
 
@@ -61,8 +63,12 @@ pub struct Numbers<'a> {
 
 impl Numbers<'static> {
     /// The judge's numbers and the references' curves.
-    pub const JUDGED: Numbers<'static> =
-        Numbers { error: &point_error, convergence: &convergence, front: &front, curve: &curve };
+    pub const JUDGED: Numbers<'static> = Numbers {
+        error: &point_error,
+        convergence: &convergence,
+        front: &front,
+        curve: &curve,
+    };
 }
 
 /// Resolutions that the documentation recommends, by axis; marked in run time against error.
@@ -82,7 +88,13 @@ fn front(_pairs: &[(f64, f64)]) -> Vec<usize> {
 
 fn curve(run: &Run, name: &str, times: &[f64]) -> Result<Curve, String> {
     let scalars = |name: &str| run.scalar(name).map(|scalar| scalar.value);
-    let facts = Facts { settings: &run.settings, scalars: &scalars };
+    let facts = Facts {
+        settings: &run.settings,
+        scalars: &scalars,
+    };
     let expected = reference::series(name, &facts, times).map_err(|error| error.to_string())?;
-    Ok(Curve { values: expected.values, source: expected.source })
+    Ok(Curve {
+        values: expected.values,
+        source: expected.source,
+    })
 }

@@ -125,10 +125,26 @@ impl Page {
             facts: facts::of(runs),
             verdicts: verdicts.iter().map(verdict_row).collect(),
             failures: failures(study, runs),
-            figures: plates.iter().map(|(figure, plate)| figure_block(study, figure, plate)).collect(),
-            work_head: work_head(&["scene", "points", "wall time", "longest", "CPU time", "peak memory"], &counters),
+            figures: plates
+                .iter()
+                .map(|(figure, plate)| figure_block(study, figure, plate))
+                .collect(),
+            work_head: work_head(
+                &[
+                    "scene",
+                    "points",
+                    "wall time",
+                    "longest",
+                    "CPU time",
+                    "peak memory",
+                ],
+                &counters,
+            ),
             work: effort.iter().map(effort_row).collect(),
-            points_head: work_head(&["point", "status", "wall time", "CPU time", "peak memory"], &counters),
+            points_head: work_head(
+                &["point", "status", "wall time", "CPU time", "peak memory"],
+                &counters,
+            ),
             points: runs.iter().map(|run| point_row(study, run, &counters)).collect(),
             command: format!("cargo study {}", study.name),
         }
@@ -137,19 +153,30 @@ impl Page {
     /// `index.html`.
     pub fn html(&self) -> Result<String, ReportError> {
         let style = include_str!("templates/style.css");
-        render("index.html", include_str!("templates/index.html"), context! { page => Serde(self), style })
+        render(
+            "index.html",
+            include_str!("templates/index.html"),
+            context! { page => Serde(self), style },
+        )
     }
 
     /// `report.md`.
     pub fn markdown(&self) -> Result<String, ReportError> {
-        render("report.md", include_str!("templates/report.md"), context! { page => Serde(self) })
+        render(
+            "report.md",
+            include_str!("templates/report.md"),
+            context! { page => Serde(self) },
+        )
     }
 }
 
 fn render(name: &str, template: &str, values: Value) -> Result<String, ReportError> {
     let mut templates = Environment::new();
     let failed = |error| ReportError(format!("{name} cannot be made: {error}"));
-    let syntax = SyntaxConfig::builder().trim_blocks(true).lstrip_blocks(true).build();
+    let syntax = SyntaxConfig::builder()
+        .trim_blocks(true)
+        .lstrip_blocks(true)
+        .build();
     templates.set_syntax(syntax.map_err(failed)?);
     templates.add_filter("cell", |text: String| text.replace('|', "\\|").replace('\n', " "));
     templates
@@ -160,7 +187,10 @@ fn render(name: &str, template: &str, values: Value) -> Result<String, ReportErr
 
 fn counts(study: &Study, runs: &[Run], verdicts: &[Verdict]) -> Counts {
     let gating = |outcome| {
-        verdicts.iter().filter(|verdict| verdict.informative.is_none() && verdict.verdict == outcome).count()
+        verdicts
+            .iter()
+            .filter(|verdict| verdict.informative.is_none() && verdict.verdict == outcome)
+            .count()
     };
     let completed = runs.iter().filter(|run| run.status == Status::Completed).count();
     let planned = study.plan.points.len().max(runs.len());
@@ -168,7 +198,10 @@ fn counts(study: &Study, runs: &[Run], verdicts: &[Verdict]) -> Counts {
         holds: gating(Outcome::Holds),
         fails: gating(Outcome::Fails),
         not_decidable: gating(Outcome::NotDecidable),
-        informative: verdicts.iter().filter(|verdict| verdict.informative.is_some()).count(),
+        informative: verdicts
+            .iter()
+            .filter(|verdict| verdict.informative.is_some())
+            .count(),
         planned,
         completed,
         failed: runs.len() - completed,
@@ -179,18 +212,37 @@ fn counts(study: &Study, runs: &[Run], verdicts: &[Verdict]) -> Counts {
 fn overall(counts: Counts, exploratory: bool) -> Overall {
     let gating = counts.holds + counts.fails + counts.not_decidable;
     let absent = counts.failed + counts.missing;
-    let points = format!("{} of {} points are missing or failed", absent, counts.planned);
+    let points = format!("{} of {} points missing or failed", absent, counts.planned);
     let (kind, word, mut sentence) = if counts.fails > 0 {
-        ("fails", "Fails", format!("{} of {gating} expectations do not hold", counts.fails))
+        (
+            "fails",
+            "Fails",
+            format!("{} of {gating} expectations do not hold", counts.fails),
+        )
     } else if exploratory {
-        ("open", "Exploratory", "this study expects nothing: it shows, and judges nothing".to_owned())
+        (
+            "open",
+            "Exploratory",
+            "this study expects nothing: it shows, and judges nothing".to_owned(),
+        )
     } else if absent > 0 {
-        return Overall { kind: "open", word: "Incomplete", sentence: format::sentence(&points) + "." };
+        return Overall {
+            kind: "open",
+            word: "Incomplete",
+            sentence: format::sentence(&points) + ".",
+        };
     } else if counts.not_decidable > 0 {
-        let sentence = format!("{} of {gating} expectations cannot be decided", counts.not_decidable);
+        let sentence = format!(
+            "{} of {gating} expectations cannot be decided",
+            counts.not_decidable
+        );
         ("open", "Not decided", sentence)
     } else if gating == 0 {
-        ("open", "Informative", "no expectation of this study gates".to_owned())
+        (
+            "open",
+            "Informative",
+            "no expectation of this study gates".to_owned(),
+        )
     } else if gating == 1 {
         ("holds", "Holds", "the one expectation holds".to_owned())
     } else {
@@ -199,7 +251,11 @@ fn overall(counts: Counts, exploratory: bool) -> Overall {
     if absent > 0 {
         sentence = format!("{sentence}; {points}");
     }
-    Overall { kind, word, sentence: format::sentence(&sentence) + "." }
+    Overall {
+        kind,
+        word,
+        sentence: format::sentence(&sentence) + ".",
+    }
 }
 
 fn outcome_words(outcome: Outcome) -> (&'static str, &'static str) {
@@ -212,22 +268,36 @@ fn outcome_words(outcome: Outcome) -> (&'static str, &'static str) {
 
 fn verdict_row(verdict: &Verdict) -> VerdictRow {
     let (kind, word) = outcome_words(verdict.verdict);
-    let values = verdict.points.iter().flat_map(|point| [point.expected, point.computed]);
+    let values = verdict
+        .points
+        .iter()
+        .flat_map(|point| [point.expected, point.computed]);
     let values = values.chain([verdict.expected, verdict.computed]).flatten();
     // A band on the value itself is in SI units; only then the value has to stay in them.
     let unit = match verdict.error {
-        Some(_) => format::readable(&verdict.unit, values.fold(0.0, |most: f64, value| most.max(value.abs()))),
-        None => format::Unit { factor: 1.0, label: format::pretty_unit(&verdict.unit) },
+        Some(_) => format::readable(
+            &verdict.unit,
+            values.fold(0.0, |most: f64, value| most.max(value.abs())),
+        ),
+        None => format::Unit {
+            factor: 1.0,
+            label: format::pretty_unit(&verdict.unit),
+        },
     };
-    let value = |value: Option<f64>| value.map_or("–".to_owned(), |value| format::number(value * unit.factor));
+    let value =
+        |value: Option<f64>| value.map_or("–".to_owned(), |value| format::number(value * unit.factor));
     let error = |error: Option<f64>| error.map_or("–".to_owned(), format::percent);
     let points = verdict.points.iter().map(|point| PointRow {
         label: point.label.clone(),
         expected: value(point.expected),
         computed: value(point.computed),
         error: error(point.error),
-        kind: point.holds.map_or("open", |holds| if holds { "holds" } else { "fails" }),
-        word: point.holds.map_or("–", |holds| if holds { "holds" } else { "fails" }),
+        kind: point
+            .holds
+            .map_or("open", |holds| if holds { "holds" } else { "fails" }),
+        word: point
+            .holds
+            .map_or("–", |holds| if holds { "holds" } else { "fails" }),
     });
     VerdictRow {
         id: verdict.id.clone(),
@@ -250,7 +320,10 @@ fn verdict_row(verdict: &Verdict) -> VerdictRow {
 
 /// A bound on an error in percent, like the error beside it.
 fn band(verdict: &Verdict) -> String {
-    let bound = verdict.band.strip_prefix("< ").and_then(|bound| bound.trim().parse::<f64>().ok());
+    let bound = verdict
+        .band
+        .strip_prefix("< ")
+        .and_then(|bound| bound.trim().parse::<f64>().ok());
     match (verdict.error, bound) {
         (Some(_), Some(bound)) => format!("< {}", format::percent(bound)),
         _ => verdict.band.clone(),
@@ -263,7 +336,10 @@ fn failures(study: &Study, runs: &[Run]) -> Vec<Failure> {
         .map(|run| Failure {
             label: selection::label(study, run),
             status: table::status_word(run.status),
-            reason: run.reason.clone().unwrap_or_else(|| "no reason is known".to_owned()),
+            reason: run
+                .reason
+                .clone()
+                .unwrap_or_else(|| "no reason is known".to_owned()),
         })
         .collect()
 }
@@ -306,11 +382,19 @@ fn figure_block(study: &Study, figure: &Figure, plate: &Result<Plate, ReportErro
 fn shown_rows(table: &Table) -> (Vec<Vec<String>>, usize) {
     let every = table.rows.len().div_ceil(SHOWN_ROWS).max(1);
     let rows = table.rows.iter().step_by(every);
-    (rows.map(|row| row.iter().map(|cell| cell.shown()).collect()).collect(), table.rows.len())
+    (
+        rows.map(|row| row.iter().map(|cell| cell.shown()).collect())
+            .collect(),
+        table.rows.len(),
+    )
 }
 
 fn work_head(first: &[&str], counters: &[String]) -> Vec<String> {
-    first.iter().map(|&name| name.to_owned()).chain(counters.iter().map(|name| format::words(name))).collect()
+    first
+        .iter()
+        .map(|&name| name.to_owned())
+        .chain(counters.iter().map(|name| format::words(name)))
+        .collect()
 }
 
 fn effort_row(effort: &Effort) -> Vec<String> {

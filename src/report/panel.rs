@@ -35,7 +35,10 @@ impl Panel {
     /// Draws grid, axes, ticks and titles.
     pub fn new(x: Axis, y: Axis) -> Panel {
         let widest = y.scale.ticks().iter().filter_map(|tick| tick.label.as_deref());
-        let widest = widest.map(|label| theme::text_width(label, theme::SMALL_TEXT)).max().unwrap_or(0);
+        let widest = widest
+            .map(|label| theme::text_width(label, theme::SMALL_TEXT))
+            .max()
+            .unwrap_or(0);
         let left = theme::BORDER + theme::TEXT * 12 / 10 + theme::GAP + widest + theme::GAP + theme::TICK;
         let top = theme::BORDER + theme::SMALL_TEXT / 2;
         let title = theme::text_width(&y.title, theme::TEXT) + theme::GAP;
@@ -45,7 +48,13 @@ impl Panel {
             right: theme::WIDTH - theme::RIGHT_MARGIN,
             bottom: top + theme::PLOT_HEIGHT.max(title),
         };
-        let mut panel = Panel { canvas: Canvas::default(), x, y, plot, below: 0 };
+        let mut panel = Panel {
+            canvas: Canvas::default(),
+            x,
+            y,
+            plot,
+            below: 0,
+        };
         panel.horizontal_axis();
         panel.vertical_axis();
         panel
@@ -67,14 +76,27 @@ impl Panel {
     }
 
     fn horizontal_axis(&mut self) {
-        let Area { left, top, right, bottom } = self.plot;
+        let Area {
+            left,
+            top,
+            right,
+            bottom,
+        } = self.plot;
         let label_height = bottom + theme::TICK + theme::GAP + theme::SMALL_TEXT / 2;
         let mut occupied = i32::MIN;
         for tick in self.x.scale.ticks().to_vec() {
             let x = self.across(tick.at);
-            let length = if tick.label.is_some() { theme::TICK } else { theme::MINOR_TICK };
+            let length = if tick.label.is_some() {
+                theme::TICK
+            } else {
+                theme::MINOR_TICK
+            };
             if tick.label.is_some() {
-                self.canvas.line((x, top), (x, bottom), Stroke::solid(theme::GRID, theme::GRID_STROKE));
+                self.canvas.line(
+                    (x, top),
+                    (x, bottom),
+                    Stroke::solid(theme::GRID, theme::GRID_STROKE),
+                );
             }
             let stroke = Stroke::solid(theme::INK, theme::AXIS_STROKE);
             self.canvas.line((x, bottom), (x, bottom + length), stroke);
@@ -87,24 +109,44 @@ impl Panel {
                 self.canvas.text(text);
             }
         }
-        let stroke = Stroke::solid(theme::INK, theme::AXIS_STROKE);
-        self.canvas.line((left, bottom), (right, bottom), stroke);
         let middle = label_height + theme::SMALL_TEXT / 2 + theme::GAP + theme::TEXT / 2;
-        let title = Text::new(&self.x.title, ((left + right) / 2, middle), theme::TEXT, Anchor::Middle);
+        let title = Text::new(
+            &self.x.title,
+            ((left + right) / 2, middle),
+            theme::TEXT,
+            Anchor::Middle,
+        );
         self.canvas.text(title);
         self.below = middle + theme::TEXT / 2 + theme::GAP;
     }
 
     fn vertical_axis(&mut self) {
-        let Area { left, top, right, bottom } = self.plot;
+        let Area {
+            left,
+            top,
+            right,
+            bottom,
+        } = self.plot;
         let mut occupied = i32::MAX;
         for tick in self.y.scale.ticks().to_vec() {
             let y = self.up(tick.at);
-            let length = if tick.label.is_some() { theme::TICK } else { theme::MINOR_TICK };
+            let length = if tick.label.is_some() {
+                theme::TICK
+            } else {
+                theme::MINOR_TICK
+            };
             if tick.label.is_some() {
-                self.canvas.line((left, y), (right, y), Stroke::solid(theme::GRID, theme::GRID_STROKE));
+                self.canvas.line(
+                    (left, y),
+                    (right, y),
+                    Stroke::solid(theme::GRID, theme::GRID_STROKE),
+                );
             }
-            self.canvas.line((left, y), (left - length, y), Stroke::solid(theme::INK, theme::AXIS_STROKE));
+            self.canvas.line(
+                (left, y),
+                (left - length, y),
+                Stroke::solid(theme::INK, theme::AXIS_STROKE),
+            );
             let Some(label) = tick.label else { continue };
             let x = left - theme::TICK - theme::GAP;
             let text = Text::new(label, (x, y), theme::SMALL_TEXT, Anchor::End);
@@ -114,7 +156,10 @@ impl Panel {
                 self.canvas.text(text);
             }
         }
-        self.canvas.line((left, top), (left, bottom), Stroke::solid(theme::INK, theme::AXIS_STROKE));
+        // Axes lie above the grid.
+        let stroke = Stroke::solid(theme::INK, theme::AXIS_STROKE);
+        self.canvas
+            .path(&[(left, top), (left, bottom), (right, bottom)], stroke);
         let at = (theme::BORDER + theme::TEXT * 6 / 10, (top + bottom) / 2);
         let mut title = Text::new(&self.y.title, at, theme::TEXT, Anchor::Middle);
         title.turned = true;
@@ -195,26 +240,35 @@ impl Panel {
     ) -> Result<Drawing, ReportError> {
         let height = self.legend(legend) + theme::BORDER;
         let svg = self.canvas.svg(height, id, title, description)?;
-        Ok(Drawing { svg, texts: self.canvas.text_areas(), height })
+        Ok(Drawing {
+            svg,
+            #[cfg(test)]
+            texts: self.canvas.text_areas(),
+            #[cfg(test)]
+            height,
+        })
     }
 
-    /// Entries in even columns, as many as fit. Gives back the lower edge.
+    /// Entries row by row, in as many columns as fit. Gives back the lower edge.
     fn legend(&mut self, legend: &[Entry]) -> i32 {
-        let width = |entry: &Entry| {
-            theme::SAMPLE + theme::GAP + theme::text_width(&entry.label, theme::TEXT) + 3 * theme::GAP
-        };
-        let Some(widest) = legend.iter().map(width).max() else {
+        if legend.is_empty() {
             return self.below;
-        };
-        let left = self.plot.left.min(theme::WIDTH - theme::BORDER - widest).max(theme::BORDER);
-        let columns = ((theme::WIDTH - theme::BORDER - left) / widest).clamp(1, legend.len() as i32);
+        }
+        let widths = columns(legend, theme::WIDTH - theme::BORDER - self.plot.left);
+        let whole: i32 = widths.iter().sum();
+        // One wide entry may need the space below the axis labels, too.
+        let left = self
+            .plot
+            .left
+            .min(theme::WIDTH - theme::BORDER - whole)
+            .max(theme::BORDER);
         for (index, entry) in legend.iter().enumerate() {
-            let (row, column) = (index as i32 / columns, index as i32 % columns);
-            let x = left + column * widest;
-            let y = self.below + theme::GAP + row * theme::LEGEND_ROW + theme::LEGEND_ROW / 2;
+            let (row, column) = (index / widths.len(), index % widths.len());
+            let x = left + widths[..column].iter().sum::<i32>();
+            let y = self.below + theme::GAP + row as i32 * theme::LEGEND_ROW + theme::LEGEND_ROW / 2;
             self.legend_entry(entry, (x, y));
         }
-        let rows = (legend.len() as i32 + columns - 1) / columns;
+        let rows = legend.len().div_ceil(widths.len()) as i32;
         self.below + theme::GAP + rows * theme::LEGEND_ROW
     }
 
@@ -228,11 +282,37 @@ impl Panel {
         }
         if entry.markers {
             let middle = (x + theme::SAMPLE / 2, y);
-            self.canvas.marker(entry.style.marker, middle, entry.style.colour, 1.0);
+            self.canvas
+                .marker(entry.style.marker, middle, entry.style.colour, 1.0);
         }
         let at = (x + theme::SAMPLE + theme::GAP, y);
-        self.canvas.text(Text::new(&entry.label, at, theme::TEXT, Anchor::Start));
+        self.canvas
+            .text(Text::new(&entry.label, at, theme::TEXT, Anchor::Start));
     }
+}
+
+/// Widths of the most columns that fit into a legend.
+fn columns(legend: &[Entry], room: i32) -> Vec<i32> {
+    let width = |entry: &Entry| {
+        theme::SAMPLE + theme::GAP + theme::text_width(&entry.label, theme::TEXT) + 3 * theme::GAP
+    };
+    let widths = |columns: usize| -> Vec<i32> {
+        let column = |column| {
+            legend
+                .iter()
+                .skip(column)
+                .step_by(columns)
+                .map(width)
+                .max()
+                .unwrap_or(0)
+        };
+        (0..columns).map(column).collect()
+    };
+    let fitting = (1..=legend.len())
+        .rev()
+        .map(widths)
+        .find(|widths| widths.iter().sum::<i32>() <= room);
+    fitting.unwrap_or_else(|| widths(1))
 }
 
 /// A finished figure.
@@ -240,6 +320,8 @@ impl Panel {
 pub struct Drawing {
     pub svg: String,
     /// Estimated outlines of its texts, in hundredths of a millimetre.
+    #[cfg(test)]
     pub texts: Vec<(String, Area)>,
+    #[cfg(test)]
     pub height: i32,
 }

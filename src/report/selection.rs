@@ -40,7 +40,10 @@ pub fn same(one: &AxisValue, other: &AxisValue) -> bool {
 /// Groups in the order in which they first appear.
 pub fn grouped<'a>(study: &Study, runs: &[&'a Run], by: Option<&str>) -> Vec<Group<'a>> {
     let Some(name) = by else {
-        return vec![Group { label: String::new(), runs: runs.to_vec() }];
+        return vec![Group {
+            label: String::new(),
+            runs: runs.to_vec(),
+        }];
     };
     let mut groups: Vec<(Option<AxisValue>, Group)> = Vec::new();
     for run in runs {
@@ -53,19 +56,27 @@ pub fn grouped<'a>(study: &Study, runs: &[&'a Run], by: Option<&str>) -> Vec<Gro
             Some((_, group)) => group.runs.push(run),
             None => {
                 let label = match &value {
-                    Some(AxisValue::Word(word)) => format::words(word),
                     Some(value) => named(study, name, value),
                     None => format!("without {}", format::words(name)),
                 };
-                groups.push((value, Group { label, runs: vec![run] }));
+                groups.push((
+                    value,
+                    Group {
+                        label,
+                        runs: vec![run],
+                    },
+                ));
             }
         }
     }
     groups.into_iter().map(|(_, group)| group).collect()
 }
 
-/// `width 4.2 mm`.
+/// `width 4.2 mm`; a scene goes by its name alone.
 pub fn named(study: &Study, name: &str, value: &AxisValue) -> String {
+    if name == "scene" {
+        return shown(study, name, value);
+    }
     format!("{} {}", format::words(name), shown(study, name, value))
 }
 
@@ -74,7 +85,9 @@ pub fn shown(study: &Study, name: &str, value: &AxisValue) -> String {
     match value {
         AxisValue::Number(number) => {
             let unit = format::readable(axis_unit(study, name), *number);
-            format!("{} {}", format::number(number * unit.factor), unit.label).trim_end().to_owned()
+            format!("{} {}", format::number(number * unit.factor), unit.label)
+                .trim_end()
+                .to_owned()
         }
         AxisValue::Flag(true) => "yes".to_owned(),
         AxisValue::Flag(false) => "no".to_owned(),
@@ -84,7 +97,11 @@ pub fn shown(study: &Study, name: &str, value: &AxisValue) -> String {
 
 /// SI unit of an axis; `1` when the study knows none of that name.
 pub fn axis_unit<'a>(study: &'a Study, name: &str) -> &'a str {
-    study.axes.iter().find(|axis| axis.name == name).map_or("1", |axis| &axis.unit)
+    study
+        .axes
+        .iter()
+        .find(|axis| axis.name == name)
+        .map_or("1", |axis| &axis.unit)
 }
 
 /// A run in words: scene, axes, and the seed where the study has several.
@@ -97,12 +114,17 @@ pub fn label(study: &Study, run: &Run) -> String {
     if study.seeds.len() > 1 {
         parts.push(format!("seed {}", run.seed));
     }
-    if parts.is_empty() { format::words(&run.scene) } else { parts.join(", ") }
+    if parts.is_empty() {
+        format::words(&run.scene)
+    } else {
+        parts.join(", ")
+    }
 }
 
-/// Axes with more than one value among the runs, without those named; numeric ones only on request.
+/// `scene` and axes with more than one value among the runs, without those named.
 pub fn varying(runs: &[&Run], without: &[&str]) -> Vec<String> {
-    let mut names: Vec<String> = Vec::new();
+    let mut names: Vec<String> = vec!["scene".to_owned()];
+    names.retain(|name| !without.contains(&name.as_str()));
     for run in runs {
         for (name, _) in &run.axes {
             if !names.contains(name) && !without.contains(&name.as_str()) {
@@ -111,9 +133,9 @@ pub fn varying(runs: &[&Run], without: &[&str]) -> Vec<String> {
         }
     }
     names.retain(|name| {
-        let mut values = runs.iter().filter_map(|run| run.axis(name));
+        let mut values = runs.iter().filter_map(|run| run.parameter(name));
         let first = values.next();
-        first.is_some_and(|first| values.any(|value| !same(first, value)))
+        first.is_some_and(|first| values.any(|value| !same(&first, &value)))
     });
     names
 }

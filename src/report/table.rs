@@ -32,7 +32,10 @@ pub struct Effort {
 
 /// Names of the work counters of all runs, in order of appearance.
 pub fn counters(runs: &[Run]) -> Vec<String> {
-    names(runs.iter().flat_map(|run| run.counters.iter().map(|(name, _)| name)))
+    names(
+        runs.iter()
+            .flat_map(|run| run.counters.iter().map(|(name, _)| name)),
+    )
 }
 
 /// One row per run: identity, axes, scalars with their units, counters and timing.
@@ -51,13 +54,23 @@ pub fn frame(study: &Study, runs: &[Run]) -> Result<DataFrame, ReportError> {
         columns.push(axis_column(runs, &axis));
     }
     for (name, unit) in scalars(runs) {
-        let values: Vec<Option<f64>> =
-            runs.iter().map(|run| run.scalar(&name).map(|scalar| scalar.value)).collect();
+        let values: Vec<Option<f64>> = runs
+            .iter()
+            .map(|run| run.scalar(&name).map(|scalar| scalar.value))
+            .collect();
         columns.push(Column::new(format!("{name} [{unit}]").into(), values));
     }
     for name in counters(runs) {
-        let count = |run: &Run| run.counters.iter().find(|(other, _)| *other == name).map(|(_, count)| *count);
-        columns.push(Column::new(work_column(&name).into(), runs.iter().map(count).collect::<Vec<_>>()));
+        let count = |run: &Run| {
+            run.counters
+                .iter()
+                .find(|(other, _)| *other == name)
+                .map(|(_, count)| *count)
+        };
+        columns.push(Column::new(
+            work_column(&name).into(),
+            runs.iter().map(count).collect::<Vec<_>>(),
+        ));
     }
     let timing = |name: &str, value: fn(&Run) -> f64| {
         Column::new(name.into(), runs.iter().map(value).collect::<Vec<_>>())
@@ -94,13 +107,21 @@ pub fn effort(frame: &DataFrame, counters: &[String]) -> Result<Vec<Effort>, Rep
     };
     let row = |row: usize| {
         Ok(Effort {
-            scene: table.column("scene")?.str()?.get(row).unwrap_or_default().to_owned(),
+            scene: table
+                .column("scene")?
+                .str()?
+                .get(row)
+                .unwrap_or_default()
+                .to_owned(),
             points: whole("points", row)?,
             wall: seconds("wall", row)?,
             longest: seconds("longest", row)?,
             cpu: seconds("cpu", row)?,
             memory: whole("memory", row)?,
-            work: counters.iter().map(|name| whole(&work_column(name), row)).collect::<Result<_, _>>()?,
+            work: counters
+                .iter()
+                .map(|name| whole(&work_column(name), row))
+                .collect::<Result<_, _>>()?,
         })
     };
     (0..table.height()).map(row).collect()
@@ -131,7 +152,10 @@ fn work_column(counter: &str) -> String {
 /// Doubles where every value is a number, words otherwise.
 fn axis_column(runs: &[Run], axis: &str) -> Column {
     let values = || runs.iter().map(|run| run.axis(axis));
-    if values().flatten().all(|value| matches!(value, AxisValue::Number(_))) {
+    if values()
+        .flatten()
+        .all(|value| matches!(value, AxisValue::Number(_)))
+    {
         let numbers = values().map(|value| match value {
             Some(AxisValue::Number(number)) => Some(*number),
             _ => None,
@@ -164,7 +188,10 @@ fn with_distinct_names(columns: Vec<Column>) -> Vec<Column> {
 fn scalars(runs: &[Run]) -> Vec<(String, String)> {
     let mut found: Vec<(String, String)> = Vec::new();
     for scalar in runs.iter().flat_map(|run| &run.scalars) {
-        if !found.iter().any(|(name, unit)| *name == scalar.name && *unit == scalar.unit) {
+        if !found
+            .iter()
+            .any(|(name, unit)| *name == scalar.name && *unit == scalar.unit)
+        {
             found.push((scalar.name.clone(), scalar.unit.clone()));
         }
     }

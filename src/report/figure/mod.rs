@@ -6,8 +6,8 @@ pub mod profile;
 pub mod run_time_against_error;
 pub mod time_series;
 
-use super::canvas::Area;
 use super::numbers::Numbers;
+use super::panel::Drawing;
 use super::selection;
 use super::{ReportError, format};
 use crate::store::model::Run;
@@ -31,9 +31,9 @@ pub struct Plate {
     /// Sentences below the figure.
     pub notes: Vec<String>,
     pub table: Table,
-    /// Estimated outlines of the texts in the figure and its height, to check that nothing is cut.
-    pub texts: Vec<(String, Area)>,
-    pub height: i32,
+    /// What the tests look at: nothing may be cut.
+    #[cfg(test)]
+    pub drawing: Drawing,
 }
 
 /// The numbers behind a figure, SI units in the head.
@@ -79,14 +79,24 @@ impl Cell {
 
 impl Table {
     pub fn new(head: &[&str]) -> Table {
-        Table { head: head.iter().map(|&name| name.to_owned()).collect(), rows: Vec::new() }
+        Table {
+            head: head.iter().map(|&name| name.to_owned()).collect(),
+            rows: Vec::new(),
+        }
     }
 
     /// Comma-separated, all digits.
     pub fn csv(&self) -> String {
         let line = |cells: Vec<String>| cells.join(",") + "\n";
-        let head = self.head.iter().map(|name| Cell::Words(name.clone()).exact()).collect();
-        let rows = self.rows.iter().map(|row| line(row.iter().map(Cell::exact).collect()));
+        let head = self
+            .head
+            .iter()
+            .map(|name| Cell::Words(name.clone()).exact())
+            .collect();
+        let rows = self
+            .rows
+            .iter()
+            .map(|row| line(row.iter().map(Cell::exact).collect()));
         line(head) + &rows.collect::<String>()
     }
 }
@@ -95,24 +105,27 @@ impl Table {
 ///
 /// # Errors
 /// Says what is missing when there is nothing to draw.
-pub fn draw(
-    study: &Study,
-    runs: &[Run],
-    figure: &Figure,
-    numbers: &Numbers,
-) -> Result<Plate, ReportError> {
+pub fn draw(study: &Study, runs: &[Run], figure: &Figure, numbers: &Numbers) -> Result<Plate, ReportError> {
     let chosen = selection::chosen(runs, &figure.selection);
     if chosen.is_empty() {
         return Err(ReportError("no completed run belongs to this figure".to_owned()));
     }
-    let material = Material { study, figure, runs: chosen, numbers };
+    let material = Material {
+        study,
+        figure,
+        runs: chosen,
+        numbers,
+    };
     match &figure.kind {
         FigureKind::TimeSeries { of, against, group } => {
             time_series::draw(&material, of, against.as_deref(), group.as_deref())
         }
-        FigureKind::ErrorAgainstResolution { of, against, over, group } => {
-            error_against_resolution::draw(&material, of, against, over, group.as_deref())
-        }
+        FigureKind::ErrorAgainstResolution {
+            of,
+            against,
+            over,
+            group,
+        } => error_against_resolution::draw(&material, of, against, over, group.as_deref()),
         FigureKind::RunTimeAgainstError { of, against, group } => {
             run_time_against_error::draw(&material, of, against, group.as_deref())
         }
@@ -123,14 +136,33 @@ pub fn draw(
 impl Material<'_> {
     /// The title given in the study, or the one the kind suggests.
     fn title(&self, suggested: String) -> String {
-        self.figure.title.clone().unwrap_or_else(|| format::sentence(&suggested))
+        self.figure
+            .title
+            .clone()
+            .unwrap_or_else(|| format::sentence(&suggested))
     }
 
-    /// What tells the runs of one group apart, for labels: the axes that vary, without `without`.
+    /// The finished figure with its surroundings.
+    fn plate(&self, title: String, drawing: Drawing, notes: Vec<String>, table: Table) -> Plate {
+        Plate {
+            id: self.figure.id.clone(),
+            title,
+            svg: drawing.svg.clone(),
+            notes,
+            table,
+            #[cfg(test)]
+            drawing,
+        }
+    }
+
+    /// What tells the runs of one group apart, for labels.
     fn distinction(&self, run: &Run, names: &[String]) -> String {
         let parts: Vec<String> = names
             .iter()
-            .filter_map(|name| run.axis(name).map(|value| selection::named(self.study, name, value)))
+            .filter_map(|name| {
+                run.parameter(name)
+                    .map(|value| selection::named(self.study, name, &value))
+            })
             .collect();
         parts.join(", ")
     }

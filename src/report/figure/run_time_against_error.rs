@@ -20,19 +20,19 @@ struct Priced<'a> {
     seconds: f64,
 }
 
-pub fn draw(
-    material: &Material,
-    of: &str,
-    against: &str,
-    group: Option<&str>,
-) -> Result<Plate, ReportError> {
+pub fn draw(material: &Material, of: &str, against: &str, group: Option<&str>) -> Result<Plate, ReportError> {
     let groups = selection::grouped(material.study, &material.runs, group);
     let mut priced = Vec::new();
     for (index, members) in groups.iter().enumerate() {
         for run in &members.runs {
             let error = (material.numbers.error)(run, of, against).map_err(ReportError)?;
             let seconds = run.timing.wall.max(SHORTEST);
-            priced.push(Priced { run, group: index, error, seconds });
+            priced.push(Priced {
+                run,
+                group: index,
+                error,
+                seconds,
+            });
         }
     }
     priced.retain(|point| point.error.error.is_finite());
@@ -45,8 +45,16 @@ pub fn draw(
     let errors = priced.iter().map(|point| point.error.error * error_unit.factor);
     let mut panel = Panel::new(
         Axis {
-            title: format!("relative error of {}{}", format::words(of), error_unit.in_brackets()),
-            scale: if logarithmic { Scale::logarithmic(errors) } else { Scale::linear(errors) },
+            title: format!(
+                "relative error of {}{}",
+                format::words(of),
+                error_unit.in_brackets()
+            ),
+            scale: if logarithmic {
+                Scale::logarithmic(errors)
+            } else {
+                Scale::linear(errors)
+            },
         },
         Axis {
             title: format!("run time{}", time_unit.in_brackets()),
@@ -55,7 +63,12 @@ pub fn draw(
     );
     let places: Vec<Position> = priced
         .iter()
-        .map(|point| panel.at(point.error.error * error_unit.factor, point.seconds * time_unit.factor))
+        .map(|point| {
+            panel.at(
+                point.error.error * error_unit.factor,
+                point.seconds * time_unit.factor,
+            )
+        })
         .collect();
     let front = front(material, &priced);
     draw_front(&mut panel, &front, &places);
@@ -66,33 +79,51 @@ pub fn draw(
         .iter()
         .enumerate()
         .map(|(index, members)| Entry {
-            label: if members.label.is_empty() { "runs".to_owned() } else { members.label.clone() },
+            label: if members.label.is_empty() {
+                "runs".to_owned()
+            } else {
+                members.label.clone()
+            },
             style: theme::style(index),
             markers: true,
             line: false,
         })
         .collect();
     if front.len() > 1 {
-        let style = Style { colour: theme::SOFT, dash: theme::SOLID, marker: theme::Marker::Circle };
-        legend.push(Entry { label: "Pareto front".to_owned(), style, markers: false, line: true });
+        let style = Style {
+            colour: theme::SOFT,
+            dash: theme::SOLID,
+            marker: theme::Marker::Circle,
+        };
+        legend.push(Entry {
+            label: "Pareto front".to_owned(),
+            style,
+            markers: false,
+            line: true,
+        });
     }
     let title = material.title(format!("run time against error of {}", format::words(of)));
-    let description = format!("{} points, {} of them on the Pareto front.", priced.len(), front.len());
+    let description = format!(
+        "{} points, {} of them on the Pareto front.",
+        priced.len(),
+        front.len()
+    );
     let drawing = panel.finish(&legend, &material.figure.id, &title, &description)?;
-    Ok(Plate {
-        id: material.figure.id.clone(),
+    let table = table(material, &priced, &front, of);
+    Ok(material.plate(
         title,
-        svg: drawing.svg,
-        texts: drawing.texts,
-        height: drawing.height,
-        notes: notes(&priced, against, resolution.as_deref()),
-        table: table(material, &priced, &front, of),
-    })
+        drawing,
+        notes(&priced, against, resolution.as_deref()),
+        table,
+    ))
 }
 
 /// Indices on the front, from the smallest error upwards.
 fn front(material: &Material, priced: &[Priced]) -> Vec<usize> {
-    let pairs: Vec<(f64, f64)> = priced.iter().map(|point| (point.seconds, point.error.error)).collect();
+    let pairs: Vec<(f64, f64)> = priced
+        .iter()
+        .map(|point| (point.seconds, point.error.error))
+        .collect();
     let mut front = (material.numbers.front)(&pairs);
     front.sort_by(|one, other| pairs[*one].1.total_cmp(&pairs[*other].1));
     front
@@ -108,15 +139,25 @@ fn draw_front(panel: &mut Panel, front: &[usize], places: &[Position]) {
         }
         steps.push(here);
     }
-    panel.canvas.path(&steps, Stroke::solid(theme::SOFT, theme::THIN_STROKE));
+    panel
+        .canvas
+        .path(&steps, Stroke::solid(theme::SOFT, theme::THIN_STROKE));
     panel.canvas.take_path(&steps);
 }
 
 /// The axis by which points are labelled: a recommended one, or the first numeric one that varies.
 fn resolution(material: &Material, group: Option<&str>) -> Option<String> {
     let varying = selection::varying(&material.runs, group.as_slice());
-    let numeric = |name: &String| material.runs.iter().any(|run| selection::numeric(run, name).is_some());
-    let recommended = RECOMMENDED.iter().map(|(name, _)| (*name).to_owned()).find(|name| varying.contains(name));
+    let numeric = |name: &String| {
+        material
+            .runs
+            .iter()
+            .any(|run| selection::numeric(run, name).is_some())
+    };
+    let recommended = RECOMMENDED
+        .iter()
+        .map(|(name, _)| (*name).to_owned())
+        .find(|name| varying.contains(name));
     recommended.or_else(|| varying.into_iter().find(numeric))
 }
 
@@ -134,7 +175,9 @@ fn draw_points(panel: &mut Panel, priced: &[Priced], places: &[Position], resolu
         let mut half = theme::MARKER + 20;
         if is_recommended(point.run, resolution) {
             half = theme::MARKER * 19 / 10;
-            panel.canvas.path(&ring(*at, half), Stroke::solid(theme::INK, theme::THIN_STROKE));
+            panel
+                .canvas
+                .path(&ring(*at, half), Stroke::solid(theme::INK, theme::THIN_STROKE));
         }
         panel.canvas.take(Area::around(*at, half));
     }
@@ -150,14 +193,21 @@ fn ring(centre: Position, radius: i32) -> Vec<Position> {
     let corner = |index: i32| {
         let angle = f64::from(index) / 32.0 * std::f64::consts::TAU;
         let reach = f64::from(radius);
-        (centre.0 + (reach * angle.cos()).round() as i32, centre.1 + (reach * angle.sin()).round() as i32)
+        (
+            centre.0 + (reach * angle.cos()).round() as i32,
+            centre.1 + (reach * angle.sin()).round() as i32,
+        )
     };
     (0..=32).map(corner).collect()
 }
 
 fn notes(priced: &[Priced], against: &str, resolution: Option<&str>) -> Vec<String> {
     let sources = distinct(priced.iter().map(|point| point.error.source.clone()).collect());
-    let source = if sources.is_empty() { format::words(against) } else { sources.join("; ") };
+    let source = if sources.is_empty() {
+        format::words(against)
+    } else {
+        sources.join("; ")
+    };
     let mut notes = vec![format!("Reference: {source}.")];
     if let Some(name) = resolution {
         notes.push(format!("Numbers at the points: {}.", format::words(name)));
@@ -170,9 +220,21 @@ fn notes(priced: &[Priced], against: &str, resolution: Option<&str>) -> Vec<Stri
 }
 
 fn table(material: &Material, priced: &[Priced], front: &[usize], of: &str) -> Table {
-    let unit = material.runs.iter().find_map(|run| run.scalar(of)).map_or("SI", |scalar| &scalar.unit);
+    let unit = material
+        .runs
+        .iter()
+        .find_map(|run| run.scalar(of))
+        .map_or("SI", |scalar| &scalar.unit);
     let (computed, expected) = (format!("computed [{unit}]"), format!("expected [{unit}]"));
-    let head = ["run", &computed, &expected, "relative error [1]", "wall time [s]", "steps [1]", "on the front"];
+    let head = [
+        "run",
+        &computed,
+        &expected,
+        "relative error [1]",
+        "wall time [s]",
+        "steps [1]",
+        "on the front",
+    ];
     let mut table = Table::new(&head);
     for (index, point) in priced.iter().enumerate() {
         let steps = point.run.counters.iter().find(|(name, _)| name == "steps");

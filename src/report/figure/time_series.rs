@@ -23,7 +23,11 @@ pub fn draw(
     let all = || drawn.iter().chain(references.iter().map(|(line, _)| line));
     let time = format::readable("s", lines::largest(all().flat_map(|line| &line.x)));
     let value = format::readable(&unit, lines::largest(all().flat_map(|line| &line.y)));
-    let quantity = of.iter().map(|name| format::words(name)).collect::<Vec<_>>().join(", ");
+    let quantity = of
+        .iter()
+        .map(|name| format::words(name))
+        .collect::<Vec<_>>()
+        .join(", ");
     let mut panel = Panel::new(
         Axis {
             title: format!("time{}", time.in_brackets()),
@@ -40,35 +44,36 @@ pub fn draw(
     let mut legend = looks.legend;
     let mut notes: Vec<String> = looks.note.into_iter().collect();
     if let Some(name) = against {
-        legend.push(lines::reference_entry(format!("reference ({})", format::words(name))));
+        legend.push(lines::reference_entry(format!(
+            "reference ({})",
+            format::words(name)
+        )));
         let sources = distinct(references.iter().map(|(_, source)| source.clone()).collect());
         notes.push(format!("Dashed black: {}.", sources.join("; ")));
     }
     let title = material.title(format!("{quantity} over time"));
     let description = format!("{} lines of {quantity} over time.", drawn.len());
     let drawing = panel.finish(&legend, &material.figure.id, &title, &description)?;
-    Ok(Plate {
-        id: material.figure.id.clone(),
-        title,
-        svg: drawing.svg,
-        texts: drawing.texts,
-        height: drawing.height,
-        notes,
-        table: table(material, of, against, &unit)?,
-    })
+    let table = table(material, of, against, &unit)?;
+    Ok(material.plate(title, drawing, notes, table))
 }
 
 fn series<'a>(run: &'a Run, of: &str) -> Result<(&'a Column, &'a Column), ReportError> {
-    let found = run.table(TABLE).and_then(|table| Some((table.column(TIME)?, table.column(of)?)));
+    let found = run
+        .table(TABLE)
+        .and_then(|table| Some((table.column(TIME)?, table.column(of)?)));
     found.ok_or_else(|| {
-        ReportError(format!("run {} keeps no series `{of}`: add it to `observe`", run.id.0))
+        ReportError(format!(
+            "run {} keeps no series `{of}`: add it to `observe`",
+            run.id.0
+        ))
     })
 }
 
 fn computed(
     material: &Material,
     of: &[String],
-    styles: &[(super::super::theme::Style, f64)],
+    looks: &[lines::Look],
 ) -> Result<(Vec<Line>, String), ReportError> {
     let mut drawn = Vec::new();
     let mut unit: Option<String> = None;
@@ -77,30 +82,48 @@ fn computed(
             let (time, column) = series(run, quantity)?;
             let known = unit.get_or_insert_with(|| column.unit.clone());
             if *known != column.unit {
-                let message = format!("`{quantity}` is in {}, not in {known}: draw two figures", column.unit);
+                let message = format!(
+                    "`{quantity}` is in {}, not in {known}: draw two figures",
+                    column.unit
+                );
                 return Err(ReportError(message));
             }
-            let (style, opacity) = styles[index + place * material.runs.len()];
-            drawn.push(Line { x: time.values.clone(), y: column.values.clone(), style, opacity });
+            let (style, opacity, markers) = looks[index + place * material.runs.len()];
+            let (x, y) = (time.values.clone(), column.values.clone());
+            drawn.push(Line {
+                x,
+                y,
+                style,
+                opacity,
+                markers,
+            });
         }
     }
     Ok((drawn, unit.unwrap_or_default()))
 }
 
 /// Each distinct reference curve once.
-fn references(
-    material: &Material,
-    against: Option<&str>,
-) -> Result<Vec<(Line, String)>, ReportError> {
-    let Some(name) = against else { return Ok(Vec::new()) };
+fn references(material: &Material, against: Option<&str>) -> Result<Vec<(Line, String)>, ReportError> {
+    let Some(name) = against else {
+        return Ok(Vec::new());
+    };
     let mut found: Vec<(Line, String)> = Vec::new();
     for run in &material.runs {
         let times = times(run)?;
         let curve = (material.numbers.curve)(run, name, &times).map_err(ReportError)?;
-        let known = found.iter().any(|(line, _)| line.y == curve.values && line.x == times);
+        let known = found
+            .iter()
+            .any(|(line, _)| line.y == curve.values && line.x == times);
         if !known {
             let style = lines::reference_style();
-            found.push((Line { x: times, y: curve.values, style, opacity: 1.0 }, curve.source));
+            let line = Line {
+                x: times,
+                y: curve.values,
+                style,
+                opacity: 1.0,
+                markers: None,
+            };
+            found.push((line, curve.source));
         }
     }
     Ok(found)
@@ -133,8 +156,16 @@ fn table(
         let label = selection::label(material.study, run);
         for (index, time) in times.iter().enumerate() {
             let mut row = vec![Cell::Words(label.clone()), Cell::Number(*time)];
-            row.extend(columns.iter().map(|column| Cell::from(column.get(index).copied())));
-            row.extend(reference.iter().map(|curve| Cell::from(curve.values.get(index).copied())));
+            row.extend(
+                columns
+                    .iter()
+                    .map(|column| Cell::from(column.get(index).copied())),
+            );
+            row.extend(
+                reference
+                    .iter()
+                    .map(|curve| Cell::from(curve.values.get(index).copied())),
+            );
             rows.push(row);
         }
     }
