@@ -16,9 +16,9 @@ pub const RIGHT_MARGIN: i32 = 350;
 pub const GAP: i32 = 120;
 
 /// Axis titles and legend.
-pub const TEXT: i32 = 300;
+pub const TEXT: i32 = 340;
 /// Tick labels and labels inside the plot.
-pub const SMALL_TEXT: i32 = 265;
+pub const SMALL_TEXT: i32 = 300;
 /// First the faces that journals ask for, then what is found on every system.
 pub const FONT: &str = "Helvetica Neue, Helvetica, Arial, Liberation Sans, DejaVu Sans, sans-serif";
 
@@ -33,8 +33,8 @@ pub const MARKER: i32 = 95;
 /// Half the width of the cap of an uncertainty bar.
 pub const CAP: i32 = 70;
 /// Length of the line sample in a legend.
-pub const SAMPLE: i32 = 800;
-pub const LEGEND_ROW: i32 = 440;
+pub const SAMPLE: i32 = 760;
+pub const LEGEND_ROW: i32 = 480;
 
 /// Red, green, blue.
 pub type Colour = (u8, u8, u8);
