@@ -353,6 +353,18 @@ fn the_failed_point_enters_no_figure() {
     let plate = figure::draw(&study, &runs, &study.figures[1], &NUMBERS).unwrap();
     assert!(!plate.table.csv().contains("spacing / diameter 6"));
     assert!(plate.table.csv().contains("spacing / diameter 4"));
+    assert_eq!(plate.notes.last().unwrap(), "Left out: 1 failed.");
+}
+
+#[test]
+fn an_identifier_cannot_leave_the_folder() {
+    let mut study = study();
+    study.figures.truncate(1);
+    study.figures[0].id = "../a b/<c>".into();
+    let folder = tempfile::tempdir().unwrap();
+    let page = written(&study, &runs(), &[], folder.path());
+    assert!(folder.path().join("figures/-a-b--c-.svg").exists());
+    assert!(page.contains("figures/-a-b--c-.csv"));
 }
 
 #[test]

@@ -96,7 +96,7 @@ pub fn draw(
         format::words(over)
     ));
     let description = format!("{} points in {} groups.", errors.len(), sweeps.len());
-    let drawing = panel.finish(&legend(&sweeps, of), &material.figure.id, &title, &description)?;
+    let drawing = panel.finish(&legend(&sweeps, of), &material.id(), &title, &description)?;
     let table = table(material, &sweeps, over, of);
     Ok(material.plate(title, drawing, notes(&sweeps, against, over), table))
 }

@@ -10,7 +10,7 @@ use super::numbers::Numbers;
 use super::panel::Drawing;
 use super::selection;
 use super::{ReportError, format};
-use crate::store::model::Run;
+use crate::store::model::{Run, Status};
 use crate::study::model::{Figure, FigureKind, Study};
 
 /// What a figure is drawn from.
@@ -116,24 +116,51 @@ pub fn draw(study: &Study, runs: &[Run], figure: &Figure, numbers: &Numbers) -> 
         runs: chosen,
         numbers,
     };
-    match &figure.kind {
-        FigureKind::TimeSeries { of, against, group } => {
-            time_series::draw(&material, of, against.as_deref(), group.as_deref())
-        }
-        FigureKind::ErrorAgainstResolution {
-            of,
-            against,
-            over,
-            group,
-        } => error_against_resolution::draw(&material, of, against, over, group.as_deref()),
-        FigureKind::RunTimeAgainstError { of, against, group } => {
-            run_time_against_error::draw(&material, of, against, group.as_deref())
-        }
-        FigureKind::Profile { of, group } => profile::draw(&material, of, group.as_deref()),
+    let mut plate = material.draw()?;
+    let left_out = runs
+        .iter()
+        .filter(|run| run.status != Status::Completed && selection::admits(&figure.selection, run))
+        .count();
+    if left_out > 0 {
+        plate.notes.push(format!("Left out: {left_out} failed."));
     }
+    Ok(plate)
+}
+
+/// A file stem and identifier made of what is safe in both.
+fn stem(id: &str) -> String {
+    let safe = |letter: char| letter.is_ascii_alphanumeric() || ['-', '_', '.'].contains(&letter);
+    let stem: String = id
+        .chars()
+        .map(|letter| if safe(letter) { letter } else { '-' })
+        .collect();
+    stem.trim_start_matches('.').to_owned()
 }
 
 impl Material<'_> {
+    fn draw(&self) -> Result<Plate, ReportError> {
+        match &self.figure.kind {
+            FigureKind::TimeSeries { of, against, group } => {
+                time_series::draw(self, of, against.as_deref(), group.as_deref())
+            }
+            FigureKind::ErrorAgainstResolution {
+                of,
+                against,
+                over,
+                group,
+            } => error_against_resolution::draw(self, of, against, over, group.as_deref()),
+            FigureKind::RunTimeAgainstError { of, against, group } => {
+                run_time_against_error::draw(self, of, against, group.as_deref())
+            }
+            FigureKind::Profile { of, group } => profile::draw(self, of, group.as_deref()),
+        }
+    }
+
+    /// File stem of the figure, unique in a report.
+    fn id(&self) -> String {
+        stem(&self.figure.id)
+    }
+
     /// The title given in the study, or the one the kind suggests.
     fn title(&self, suggested: String) -> String {
         self.figure
@@ -145,7 +172,7 @@ impl Material<'_> {
     /// The finished figure with its surroundings.
     fn plate(&self, title: String, drawing: Drawing, notes: Vec<String>, table: Table) -> Plate {
         Plate {
-            id: self.figure.id.clone(),
+            id: self.id(),
             title,
             svg: drawing.svg.clone(),
             notes,

@@ -57,7 +57,7 @@ pub fn draw(material: &Material, of: &str, group: Option<&str>) -> Result<Plate,
         format::words(&height_name)
     ));
     let description = format!("{} profiles, height upwards.", drawn.len());
-    let drawing = panel.finish(&looks.legend, &material.figure.id, &title, &description)?;
+    let drawing = panel.finish(&looks.legend, &material.id(), &title, &description)?;
     let heads = [
         format!("{height_name} [{height_unit}]"),
         format!("{along_name} [{along_unit}]"),

@@ -108,7 +108,7 @@ pub fn draw(material: &Material, of: &str, against: &str, group: Option<&str>) -
         priced.len(),
         front.len()
     );
-    let drawing = panel.finish(&legend, &material.figure.id, &title, &description)?;
+    let drawing = panel.finish(&legend, &material.id(), &title, &description)?;
     let table = table(material, &priced, &front, of);
     Ok(material.plate(
         title,

@@ -49,11 +49,11 @@ pub fn draw(
             format::words(name)
         )));
         let sources = distinct(references.iter().map(|(_, source)| source.clone()).collect());
-        notes.push(format!("Dashed black: {}.", sources.join("; ")));
+        notes.push(format!("Dashed: {}.", sources.join("; ")));
     }
     let title = material.title(format!("{quantity} over time"));
     let description = format!("{} lines of {quantity} over time.", drawn.len());
-    let drawing = panel.finish(&legend, &material.figure.id, &title, &description)?;
+    let drawing = panel.finish(&legend, &material.id(), &title, &description)?;
     let table = table(material, of, against, &unit)?;
     Ok(material.plate(title, drawing, notes, table))
 }
