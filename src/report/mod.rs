@@ -12,6 +12,7 @@ mod facts;
 mod figure;
 mod format;
 mod junit;
+mod mark;
 mod numbers;
 mod page;
 mod panel;
@@ -20,6 +21,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 mod theme;
+mod verdict_row;
 
 use figure::Plate;
 use numbers::Numbers;

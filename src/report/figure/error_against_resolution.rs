@@ -2,10 +2,11 @@
 //! the grid convergence index as bars and the admitted bound as a level.
 
 use super::super::axis::Scale;
-use super::super::canvas::{Anchor, Area, Position, Stroke, Text};
+use super::super::canvas::{Area, Position, Stroke};
 use super::super::numbers::{Convergence, PointError, Resolved};
 use super::super::panel::{Axis, Entry, Panel};
 use super::super::theme::{self, Style};
+use super::slope::{self, middles};
 use super::{Cell, Material, Plate, Table, distinct};
 use crate::report::format::Unit;
 use crate::report::{ReportError, format, selection};
@@ -86,7 +87,7 @@ pub fn draw(
     if logarithmic {
         for (sweep, places) in sweeps.iter().zip(&places) {
             if let Some(order) = sweep.convergence.order {
-                triangle(&mut panel, places, order, sweep.style);
+                slope::triangle(&mut panel, places, order, sweep.style);
             }
         }
     }
@@ -230,20 +231,6 @@ fn draw_sweep(panel: &mut Panel, sweep: &Sweep, places: &[Position], factor: f64
     }
 }
 
-fn middles(places: &[Position]) -> Vec<Position> {
-    let mut middles: Vec<(i32, Vec<i32>)> = Vec::new();
-    for (x, y) in places {
-        match middles.last_mut() {
-            Some((last, heights)) if last == x => heights.push(*y),
-            _ => middles.push((*x, vec![*y])),
-        }
-    }
-    middles
-        .into_iter()
-        .map(|(x, heights)| (x, heights.iter().sum::<i32>() / heights.len() as i32))
-        .collect()
-}
-
 /// A bar from end to end, cut where the axes end; only an end inside the plot has a cap.
 fn uncertainty(panel: &mut Panel, x: i32, ends: [f64; 2], colour: theme::Colour) {
     let stroke = Stroke::solid(colour, theme::THIN_STROKE);
@@ -267,97 +254,6 @@ fn uncertainty(panel: &mut Panel, x: i32, ends: [f64; 2], colour: theme::Colour)
                 .line((x - theme::CAP, y), (x + theme::CAP, y), stroke);
         }
     }
-}
-
-/// A right triangle with the slope of the observed order, beside a segment where nothing else is.
-fn triangle(panel: &mut Panel, places: &[Position], order: f64, style: Style) {
-    let label = format!("{order:.1}").replace('-', "−");
-    if label == "0.0" || label == "−0.0" {
-        return;
-    }
-    let width = (panel.plot.right - panel.plot.left) / 9;
-    let decades = |scale: &Scale| (scale.high / scale.low).log10();
-    let across = f64::from(width) / f64::from(panel.plot.right - panel.plot.left) * decades(&panel.x.scale);
-    let tall = f64::from(panel.plot.bottom - panel.plot.top);
-    let rise = (order * across / decades(&panel.y.scale) * tall).round() as i32;
-    for (start, below) in candidates(places) {
-        let far = theme::MARKER * 2;
-        let (x, y) = if below {
-            (start.0, start.1 + far)
-        } else {
-            (start.0, start.1 - far)
-        };
-        // Below the line the right angle lies right and low, above it left and high.
-        let corners = if below {
-            [(x, y), (x + width, y), (x + width, y - rise)]
-        } else {
-            [(x, y), (x, y - rise), (x + width, y - rise)]
-        };
-        let text = if below {
-            Text::new(
-                &label,
-                (x + width + theme::GAP / 2, y - rise / 2),
-                theme::SMALL_TEXT,
-                Anchor::Start,
-            )
-        } else {
-            Text::new(
-                &label,
-                (x - theme::GAP / 2, y - rise / 2),
-                theme::SMALL_TEXT,
-                Anchor::End,
-            )
-        };
-        let free = panel.plot.contains(&text.area())
-            && panel.canvas.is_free(&text.area())
-            && outline_is_free(panel, &corners);
-        if free {
-            let closed = [corners[0], corners[1], corners[2], corners[0]];
-            panel
-                .canvas
-                .path(&closed, Stroke::solid(style.colour, theme::THIN_STROKE));
-            panel.canvas.take_path(&closed);
-            panel.canvas.take(text.area());
-            panel.canvas.text(Text {
-                colour: style.colour,
-                ..text
-            });
-            return;
-        }
-    }
-}
-
-/// Places to try, from the middle of the line outwards, nearer ones first.
-fn candidates(places: &[Position]) -> Vec<(Position, bool)> {
-    let middles = middles(places);
-    let mut candidates = Vec::new();
-    for away in [1, 2, 4, 6] {
-        for pair in middles.windows(2) {
-            let (one, other) = (pair[0], pair[1]);
-            for quarter in [1, 2, 0, 3] {
-                let at = |share: i32| one.0 + (other.0 - one.0) * share / 4;
-                let up = |share: i32| one.1 + (other.1 - one.1) * share / 4;
-                let shift = (away - 1) * theme::MARKER;
-                candidates.push(((at(quarter), up(quarter) + shift), true));
-                candidates.push(((at(quarter), up(quarter) - shift), false));
-            }
-        }
-    }
-    candidates
-}
-
-fn outline_is_free(panel: &Panel, corners: &[Position; 3]) -> bool {
-    let closed = [corners[0], corners[1], corners[2], corners[0]];
-    closed.windows(2).all(|pair| {
-        (0..=12).all(|index| {
-            let at = (
-                pair[0].0 + (pair[1].0 - pair[0].0) * index / 12,
-                pair[0].1 + (pair[1].1 - pair[0].1) * index / 12,
-            );
-            let area = Area::around(at, theme::MARKER / 2);
-            panel.plot.contains(&area) && panel.canvas.is_free(&area)
-        })
-    })
 }
 
 fn legend(sweeps: &[Sweep], of: &str) -> Vec<Entry> {

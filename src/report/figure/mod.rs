@@ -4,6 +4,7 @@ pub mod error_against_resolution;
 mod lines;
 pub mod profile;
 pub mod run_time_against_error;
+mod slope;
 pub mod time_series;
 
 use super::numbers::Numbers;
