@@ -1,0 +1,205 @@
+//! One file per figure kind: from runs to a drawing, a table and notes for the caption.
+
+pub mod error_against_resolution;
+mod lines;
+pub mod profile;
+pub mod run_time_against_error;
+mod slope;
+pub mod time_series;
+
+use super::numbers::Numbers;
+use super::panel::Drawing;
+use super::selection;
+use super::{ReportError, format};
+use crate::store::model::{Run, Status};
+use crate::study::model::{Figure, FigureKind, Study};
+
+/// What a figure is drawn from.
+pub struct Material<'a> {
+    pub study: &'a Study,
+    pub figure: &'a Figure,
+    /// The completed runs it shows.
+    pub runs: Vec<&'a Run>,
+    pub numbers: &'a Numbers<'a>,
+}
+
+/// A drawn figure with everything that stands around it.
+#[derive(Clone, Debug)]
+pub struct Plate {
+    pub id: String,
+    pub title: String,
+    pub svg: String,
+    /// Sentences below the figure.
+    pub notes: Vec<String>,
+    pub table: Table,
+    /// What the tests look at: nothing may be cut.
+    #[cfg(test)]
+    pub drawing: Drawing,
+}
+
+/// The numbers behind a figure, SI units in the head.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    pub head: Vec<String>,
+    pub rows: Vec<Vec<Cell>>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cell {
+    Number(f64),
+    Words(String),
+    Empty,
+}
+
+impl From<Option<f64>> for Cell {
+    fn from(value: Option<f64>) -> Cell {
+        value.map_or(Cell::Empty, Cell::Number)
+    }
+}
+
+impl Cell {
+    fn exact(&self) -> String {
+        match self {
+            Cell::Number(value) => format::exact(*value),
+            Cell::Words(words) if words.contains([',', '"', '\n']) => {
+                format!("\"{}\"", words.replace('"', "\"\""))
+            }
+            Cell::Words(words) => words.clone(),
+            Cell::Empty => String::new(),
+        }
+    }
+
+    pub fn shown(&self) -> String {
+        match self {
+            Cell::Number(value) => format::number(*value),
+            Cell::Words(words) => words.clone(),
+            Cell::Empty => "–".to_owned(),
+        }
+    }
+}
+
+impl Table {
+    pub fn new(head: &[&str]) -> Table {
+        Table {
+            head: head.iter().map(|&name| name.to_owned()).collect(),
+            rows: Vec::new(),
+        }
+    }
+
+    /// Comma-separated, all digits.
+    pub fn csv(&self) -> String {
+        let line = |cells: Vec<String>| cells.join(",") + "\n";
+        let head = self
+            .head
+            .iter()
+            .map(|name| Cell::Words(name.clone()).exact())
+            .collect();
+        let rows = self
+            .rows
+            .iter()
+            .map(|row| line(row.iter().map(Cell::exact).collect()));
+        line(head) + &rows.collect::<String>()
+    }
+}
+
+/// Draws one figure of the study.
+///
+/// # Errors
+/// Says what is missing when there is nothing to draw.
+pub fn draw(study: &Study, runs: &[Run], figure: &Figure, numbers: &Numbers) -> Result<Plate, ReportError> {
+    let chosen = selection::chosen(runs, &figure.selection);
+    if chosen.is_empty() {
+        return Err(ReportError("no completed run belongs to this figure".to_owned()));
+    }
+    let material = Material {
+        study,
+        figure,
+        runs: chosen,
+        numbers,
+    };
+    let mut plate = material.draw()?;
+    let left_out = runs
+        .iter()
+        .filter(|run| run.status != Status::Completed && selection::admits(&figure.selection, run))
+        .count();
+    if left_out > 0 {
+        plate.notes.push(format!("Left out: {left_out} failed."));
+    }
+    Ok(plate)
+}
+
+/// A file stem and identifier made of what is safe in both.
+fn stem(id: &str) -> String {
+    let safe = |letter: char| letter.is_ascii_alphanumeric() || ['-', '_', '.'].contains(&letter);
+    let stem: String = id
+        .chars()
+        .map(|letter| if safe(letter) { letter } else { '-' })
+        .collect();
+    stem.trim_start_matches('.').to_owned()
+}
+
+impl Material<'_> {
+    fn draw(&self) -> Result<Plate, ReportError> {
+        match &self.figure.kind {
+            FigureKind::TimeSeries { of, against, group } => {
+                time_series::draw(self, of, against.as_deref(), group.as_deref())
+            }
+            FigureKind::ErrorAgainstResolution {
+                of,
+                against,
+                over,
+                group,
+            } => error_against_resolution::draw(self, of, against, over, group.as_deref()),
+            FigureKind::RunTimeAgainstError { of, against, group } => {
+                run_time_against_error::draw(self, of, against, group.as_deref())
+            }
+            FigureKind::Profile { of, group } => profile::draw(self, of, group.as_deref()),
+        }
+    }
+
+    /// File stem of the figure, unique in a report.
+    fn id(&self) -> String {
+        stem(&self.figure.id)
+    }
+
+    /// The title given in the study, or the one the kind suggests.
+    fn title(&self, suggested: String) -> String {
+        self.figure
+            .title
+            .clone()
+            .unwrap_or_else(|| format::sentence(&suggested))
+    }
+
+    /// The finished figure with its surroundings.
+    fn plate(&self, title: String, drawing: Drawing, notes: Vec<String>, table: Table) -> Plate {
+        Plate {
+            id: self.id(),
+            title,
+            svg: drawing.svg.clone(),
+            notes,
+            table,
+            #[cfg(test)]
+            drawing,
+        }
+    }
+
+    /// What tells the runs of one group apart, for labels.
+    fn distinction(&self, run: &Run, names: &[String]) -> String {
+        let parts: Vec<String> = names
+            .iter()
+            .filter_map(|name| {
+                run.parameter(name)
+                    .map(|value| selection::named(self.study, name, &value))
+            })
+            .collect();
+        parts.join(", ")
+    }
+}
+
+/// Sorted, without repetition: sources for a caption.
+pub(super) fn distinct(mut texts: Vec<String>) -> Vec<String> {
+    texts.retain(|text| !text.is_empty());
+    texts.sort();
+    texts.dedup();
+    texts
+}

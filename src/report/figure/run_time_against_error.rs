@@ -1,0 +1,252 @@
+//! Run time against error: what a better answer costs, with the front that no other point beats.
+
+use super::super::axis::Scale;
+use super::super::canvas::{Area, Position, Stroke};
+use super::super::numbers::{PointError, RECOMMENDED};
+use super::super::panel::{Axis, Entry, Panel};
+use super::super::theme::{self, Style};
+use super::{Cell, Material, Plate, Table, distinct};
+use crate::report::format::Unit;
+use crate::report::{ReportError, format, selection};
+use crate::store::model::Run;
+
+/// Seconds below which a clock says nothing: shorter runs are drawn here.
+const SHORTEST: f64 = 1e-6;
+
+struct Priced<'a> {
+    run: &'a Run,
+    group: usize,
+    error: PointError,
+    seconds: f64,
+}
+
+pub fn draw(material: &Material, of: &str, against: &str, group: Option<&str>) -> Result<Plate, ReportError> {
+    let groups = selection::grouped(material.study, &material.runs, group);
+    let mut priced = Vec::new();
+    for (index, members) in groups.iter().enumerate() {
+        for run in &members.runs {
+            let error = (material.numbers.error)(run, of, against).map_err(ReportError)?;
+            let seconds = run.timing.wall.max(SHORTEST);
+            priced.push(Priced {
+                run,
+                group: index,
+                error,
+                seconds,
+            });
+        }
+    }
+    priced.retain(|point| point.error.error.is_finite());
+    if priced.is_empty() {
+        return Err(ReportError("no run of this figure has a finite error".to_owned()));
+    }
+    let logarithmic = priced.iter().all(|point| point.error.error > 0.0);
+    let error_unit = Unit::of_errors(priced.iter().map(|point| point.error.error).fold(0.0, f64::max));
+    let time_unit = format::readable("s", priced.iter().map(|point| point.seconds).fold(0.0, f64::max));
+    let errors = priced.iter().map(|point| point.error.error * error_unit.factor);
+    let mut panel = Panel::new(
+        Axis {
+            title: format!(
+                "relative error of {}{}",
+                format::words(of),
+                error_unit.in_brackets()
+            ),
+            scale: if logarithmic {
+                Scale::logarithmic(errors)
+            } else {
+                Scale::linear(errors)
+            },
+        },
+        Axis {
+            title: format!("run time{}", time_unit.in_brackets()),
+            scale: Scale::logarithmic(priced.iter().map(|point| point.seconds * time_unit.factor)),
+        },
+    );
+    let places: Vec<Position> = priced
+        .iter()
+        .map(|point| {
+            panel.at(
+                point.error.error * error_unit.factor,
+                point.seconds * time_unit.factor,
+            )
+        })
+        .collect();
+    let front = front(material, &priced);
+    draw_front(&mut panel, &front, &places);
+    let resolution = resolution(material, group);
+    draw_points(&mut panel, &priced, &places, resolution.as_deref());
+
+    let mut legend: Vec<Entry> = groups
+        .iter()
+        .enumerate()
+        .map(|(index, members)| Entry {
+            label: if members.label.is_empty() {
+                "runs".to_owned()
+            } else {
+                members.label.clone()
+            },
+            style: theme::style(index),
+            markers: true,
+            line: false,
+        })
+        .collect();
+    if front.len() > 1 {
+        let style = Style {
+            colour: theme::SOFT,
+            dash: theme::SOLID,
+            marker: theme::Marker::Circle,
+        };
+        legend.push(Entry {
+            label: "Pareto front".to_owned(),
+            style,
+            markers: false,
+            line: true,
+        });
+    }
+    let title = material.title(format!("run time against error of {}", format::words(of)));
+    let description = format!(
+        "{} points, {} of them on the Pareto front.",
+        priced.len(),
+        front.len()
+    );
+    let drawing = panel.finish(&legend, &material.id(), &title, &description)?;
+    let table = table(material, &priced, &front, of);
+    Ok(material.plate(
+        title,
+        drawing,
+        notes(&priced, against, resolution.as_deref()),
+        table,
+    ))
+}
+
+/// Indices on the front, from the smallest error upwards.
+fn front(material: &Material, priced: &[Priced]) -> Vec<usize> {
+    let pairs: Vec<(f64, f64)> = priced
+        .iter()
+        .map(|point| (point.seconds, point.error.error))
+        .collect();
+    let mut front = (material.numbers.front)(&pairs);
+    front.sort_by(|one, other| pairs[*one].1.total_cmp(&pairs[*other].1));
+    front
+}
+
+/// The front as steps: between two of its points nothing better is known than the worse of both.
+fn draw_front(panel: &mut Panel, front: &[usize], places: &[Position]) {
+    let mut steps: Vec<Position> = Vec::new();
+    for index in front {
+        let here = places[*index];
+        if let Some(last) = steps.last().copied() {
+            steps.push((here.0, last.1));
+        }
+        steps.push(here);
+    }
+    panel
+        .canvas
+        .path(&steps, Stroke::solid(theme::SOFT, theme::THIN_STROKE));
+    panel.canvas.take_path(&steps);
+}
+
+/// The axis by which points are labelled: a recommended one, or the first numeric one that varies.
+fn resolution(material: &Material, group: Option<&str>) -> Option<String> {
+    let varying = selection::varying(&material.runs, group.as_slice());
+    let numeric = |name: &String| {
+        material
+            .runs
+            .iter()
+            .any(|run| selection::numeric(run, name).is_some())
+    };
+    let recommended = RECOMMENDED
+        .iter()
+        .map(|(name, _)| (*name).to_owned())
+        .find(|name| varying.contains(name));
+    recommended.or_else(|| varying.into_iter().find(numeric))
+}
+
+fn is_recommended(run: &Run, resolution: Option<&str>) -> bool {
+    let recommended = RECOMMENDED.iter().find(|(name, _)| Some(*name) == resolution);
+    recommended.is_some_and(|(name, value)| {
+        selection::numeric(run, name).is_some_and(|number| (number - value).abs() < 1e-9 * value)
+    })
+}
+
+fn draw_points(panel: &mut Panel, priced: &[Priced], places: &[Position], resolution: Option<&str>) {
+    for (point, at) in priced.iter().zip(places) {
+        let Style { colour, marker, .. } = theme::style(point.group);
+        panel.canvas.marker(marker, *at, colour, 1.0);
+        let mut half = theme::MARKER + 20;
+        if is_recommended(point.run, resolution) {
+            half = theme::MARKER * 19 / 10;
+            panel
+                .canvas
+                .path(&ring(*at, half), Stroke::solid(theme::INK, theme::THIN_STROKE));
+        }
+        panel.canvas.take(Area::around(*at, half));
+    }
+    let Some(name) = resolution else { return };
+    for (point, at) in priced.iter().zip(places) {
+        if let Some(value) = selection::numeric(point.run, name) {
+            panel.label_beside(*at, &format::number(value), theme::style(point.group).colour);
+        }
+    }
+}
+
+fn ring(centre: Position, radius: i32) -> Vec<Position> {
+    let corner = |index: i32| {
+        let angle = f64::from(index) / 32.0 * std::f64::consts::TAU;
+        let reach = f64::from(radius);
+        (
+            centre.0 + (reach * angle.cos()).round() as i32,
+            centre.1 + (reach * angle.sin()).round() as i32,
+        )
+    };
+    (0..=32).map(corner).collect()
+}
+
+fn notes(priced: &[Priced], against: &str, resolution: Option<&str>) -> Vec<String> {
+    let sources = distinct(priced.iter().map(|point| point.error.source.clone()).collect());
+    let source = if sources.is_empty() {
+        format::words(against)
+    } else {
+        sources.join("; ")
+    };
+    let mut notes = vec![format!("Reference: {source}.")];
+    if let Some(name) = resolution {
+        notes.push(format!("Numbers at the points: {}.", format::words(name)));
+        if priced.iter().any(|point| is_recommended(point.run, resolution)) {
+            notes.push("Ringed: the recommended resolution.".to_owned());
+        }
+    }
+    notes.push("Wall time of one point; it differs from machine to machine.".to_owned());
+    notes
+}
+
+fn table(material: &Material, priced: &[Priced], front: &[usize], of: &str) -> Table {
+    let unit = material
+        .runs
+        .iter()
+        .find_map(|run| run.scalar(of))
+        .map_or("SI", |scalar| &scalar.unit);
+    let (computed, expected) = (format!("computed [{unit}]"), format!("expected [{unit}]"));
+    let head = [
+        "run",
+        &computed,
+        &expected,
+        "relative error [1]",
+        "wall time [s]",
+        "steps [1]",
+        "on the front",
+    ];
+    let mut table = Table::new(&head);
+    for (index, point) in priced.iter().enumerate() {
+        let steps = point.run.counters.iter().find(|(name, _)| name == "steps");
+        table.rows.push(vec![
+            Cell::Words(selection::label(material.study, point.run)),
+            point.error.computed.into(),
+            point.error.expected.into(),
+            Cell::Number(point.error.error),
+            Cell::Number(point.run.timing.wall),
+            steps.map(|(_, count)| *count as f64).into(),
+            Cell::Words(if front.contains(&index) { "yes" } else { "no" }.to_owned()),
+        ]);
+    }
+    table
+}

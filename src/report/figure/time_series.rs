@@ -1,0 +1,173 @@
+//! Series over time: one line per run, the reference dashed in black.
+
+use super::super::axis::Scale;
+use super::super::panel::{Axis, Panel};
+use super::lines::{self, Line};
+use super::{Cell, Material, Plate, Table, distinct};
+use crate::report::{ReportError, format, selection};
+use crate::store::model::{Column, Run};
+
+/// Table and column in which scenes keep series and their times.
+const TABLE: &str = "time_series";
+const TIME: &str = "time";
+
+pub fn draw(
+    material: &Material,
+    of: &[String],
+    against: Option<&str>,
+    group: Option<&str>,
+) -> Result<Plate, ReportError> {
+    let looks = lines::looks(material, of, group);
+    let (drawn, unit) = computed(material, of, &looks.styles)?;
+    let references = references(material, against)?;
+    let all = || drawn.iter().chain(references.iter().map(|(line, _)| line));
+    let time = format::readable("s", lines::largest(all().flat_map(|line| &line.x)));
+    let value = format::readable(&unit, lines::largest(all().flat_map(|line| &line.y)));
+    let quantity = of
+        .iter()
+        .map(|name| format::words(name))
+        .collect::<Vec<_>>()
+        .join(", ");
+    let mut panel = Panel::new(
+        Axis {
+            title: format!("time{}", time.in_brackets()),
+            scale: Scale::tight(all().flat_map(|line| line.x.iter().map(|x| x * time.factor))),
+        },
+        Axis {
+            title: format!("{quantity}{}", value.in_brackets()),
+            scale: Scale::linear(all().flat_map(|line| line.y.iter().map(|y| y * value.factor))),
+        },
+    );
+    for line in all() {
+        lines::draw(&mut panel, line, (time.factor, value.factor));
+    }
+    let mut legend = looks.legend;
+    let mut notes: Vec<String> = looks.note.into_iter().collect();
+    if let Some(name) = against {
+        legend.push(lines::reference_entry(format!(
+            "reference ({})",
+            format::words(name)
+        )));
+        let sources = distinct(references.iter().map(|(_, source)| source.clone()).collect());
+        notes.push(format!("Dashed: {}.", sources.join("; ")));
+    }
+    let title = material.title(format!("{quantity} over time"));
+    let description = format!("{} lines of {quantity} over time.", drawn.len());
+    let drawing = panel.finish(&legend, &material.id(), &title, &description)?;
+    let table = table(material, of, against, &unit)?;
+    Ok(material.plate(title, drawing, notes, table))
+}
+
+fn series<'a>(run: &'a Run, of: &str) -> Result<(&'a Column, &'a Column), ReportError> {
+    let found = run
+        .table(TABLE)
+        .and_then(|table| Some((table.column(TIME)?, table.column(of)?)));
+    found.ok_or_else(|| {
+        ReportError(format!(
+            "run {} keeps no series `{of}`: add it to `observe`",
+            run.id.0
+        ))
+    })
+}
+
+fn computed(
+    material: &Material,
+    of: &[String],
+    looks: &[lines::Look],
+) -> Result<(Vec<Line>, String), ReportError> {
+    let mut drawn = Vec::new();
+    let mut unit: Option<String> = None;
+    for (place, quantity) in of.iter().enumerate() {
+        for (index, run) in material.runs.iter().enumerate() {
+            let (time, column) = series(run, quantity)?;
+            let known = unit.get_or_insert_with(|| column.unit.clone());
+            if *known != column.unit {
+                let message = format!(
+                    "`{quantity}` is in {}, not in {known}: draw two figures",
+                    column.unit
+                );
+                return Err(ReportError(message));
+            }
+            let (style, opacity, markers) = looks[index + place * material.runs.len()];
+            let (x, y) = (time.values.clone(), column.values.clone());
+            drawn.push(Line {
+                x,
+                y,
+                style,
+                opacity,
+                markers,
+            });
+        }
+    }
+    Ok((drawn, unit.unwrap_or_default()))
+}
+
+/// Each distinct reference curve once.
+fn references(material: &Material, against: Option<&str>) -> Result<Vec<(Line, String)>, ReportError> {
+    let Some(name) = against else {
+        return Ok(Vec::new());
+    };
+    let mut found: Vec<(Line, String)> = Vec::new();
+    for run in &material.runs {
+        let times = times(run)?;
+        let curve = (material.numbers.curve)(run, name, &times).map_err(ReportError)?;
+        let known = found
+            .iter()
+            .any(|(line, _)| line.y == curve.values && line.x == times);
+        if !known {
+            let style = lines::reference_style();
+            let line = Line {
+                x: times,
+                y: curve.values,
+                style,
+                opacity: 1.0,
+                markers: None,
+            };
+            found.push((line, curve.source));
+        }
+    }
+    Ok(found)
+}
+
+fn times(run: &Run) -> Result<Vec<f64>, ReportError> {
+    let column = run.table(TABLE).and_then(|table| table.column(TIME));
+    let column = column.ok_or_else(|| ReportError(format!("run {} keeps no time series", run.id.0)))?;
+    Ok(column.values.clone())
+}
+
+fn table(
+    material: &Material,
+    of: &[String],
+    against: Option<&str>,
+    unit: &str,
+) -> Result<Table, ReportError> {
+    let mut head = vec!["run".to_owned(), "time [s]".to_owned()];
+    head.extend(of.iter().map(|name| format!("{name} [{unit}]")));
+    head.extend(against.map(|name| format!("{name} [{unit}]")));
+    let mut rows = Vec::new();
+    for run in &material.runs {
+        let times = times(run)?;
+        let columns = of.iter().map(|name| Ok(&series(run, name)?.1.values));
+        let columns = columns.collect::<Result<Vec<_>, ReportError>>()?;
+        let reference = match against {
+            Some(name) => Some((material.numbers.curve)(run, name, &times).map_err(ReportError)?),
+            None => None,
+        };
+        let label = selection::label(material.study, run);
+        for (index, time) in times.iter().enumerate() {
+            let mut row = vec![Cell::Words(label.clone()), Cell::Number(*time)];
+            row.extend(
+                columns
+                    .iter()
+                    .map(|column| Cell::from(column.get(index).copied())),
+            );
+            row.extend(
+                reference
+                    .iter()
+                    .map(|curve| Cell::from(curve.values.get(index).copied())),
+            );
+            rows.push(row);
+        }
+    }
+    Ok(Table { head, rows })
+}

@@ -1,0 +1,100 @@
+//! Where the report gets its judged numbers and reference curves: from the judge and the references,
+//! never from formulas of its own.
+
+use crate::reference::{self, Facts};
+use crate::store::model::Run;
+
+/// A quantity of one run beside its reference, in SI units; the error is relative.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointError {
+    pub computed: Option<f64>,
+    pub expected: Option<f64>,
+    /// Not negative, dimensionless.
+    pub error: f64,
+    /// With its sign, for orders.
+    pub signed: f64,
+    /// Citation of the reference.
+    pub source: String,
+}
+
+/// What a sweep of resolutions says about its own convergence.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Convergence {
+    /// Slope of the error over the resolution, both logarithmic.
+    pub order: Option<f64>,
+    /// Grid convergence index of the finest point as a relative uncertainty; only where the sweep
+    /// is monotone and close to asymptotic.
+    pub index: Option<f64>,
+    /// In words: how far the sweep can be trusted.
+    pub honesty: String,
+}
+
+/// A reference curve, one value per abscissa, SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    pub values: Vec<f64>,
+    pub source: String,
+}
+
+/// One resolution of a sweep; a mean over replicates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Resolved {
+    pub resolution: f64,
+    /// Value of the quantity, where it is a single one.
+    pub value: Option<f64>,
+    /// Relative error with its sign.
+    pub error: f64,
+}
+
+pub type ErrorOf<'a> = dyn Fn(&Run, &str, &str) -> Result<PointError, String> + 'a;
+pub type ConvergenceOf<'a> = dyn Fn(&[Resolved]) -> Convergence + 'a;
+pub type FrontOf<'a> = dyn Fn(&[(f64, f64)]) -> Vec<usize> + 'a;
+pub type CurveOf<'a> = dyn Fn(&Run, &str, &[f64]) -> Result<Curve, String> + 'a;
+
+/// The functions a report calls for its numbers.
+#[derive(Clone, Copy)]
+pub struct Numbers<'a> {
+    pub error: &'a ErrorOf<'a>,
+    pub convergence: &'a ConvergenceOf<'a>,
+    /// Indices of the pairs (cost, error) that no other pair beats in both.
+    pub front: &'a FrontOf<'a>,
+    pub curve: &'a CurveOf<'a>,
+}
+
+impl Numbers<'static> {
+    /// The judge's numbers and the references' curves.
+    pub const JUDGED: Numbers<'static> = Numbers {
+        error: &point_error,
+        convergence: &convergence,
+        front: &front,
+        curve: &curve,
+    };
+}
+
+/// Resolutions that the documentation recommends, by axis; marked in run time against error.
+pub const RECOMMENDED: &[(&str, f64)] = &[("spacing_over_diameter", 2.0)];
+
+fn point_error(_run: &Run, of: &str, against: &str) -> Result<PointError, String> {
+    Err(format!("the error of {of} against {against} is not known"))
+}
+
+fn convergence(_sweep: &[Resolved]) -> Convergence {
+    Convergence::default()
+}
+
+fn front(_pairs: &[(f64, f64)]) -> Vec<usize> {
+    Vec::new()
+}
+
+fn curve(run: &Run, name: &str, times: &[f64]) -> Result<Curve, String> {
+    let scalars = |name: &str| run.scalar(name).map(|scalar| scalar.value);
+    let facts = Facts {
+        settings: &run.settings,
+        scalars: &scalars,
+    };
+    let expected = reference::series(name, &facts, times).map_err(|error| error.to_string())?;
+    Ok(Curve {
+        values: expected.values,
+        source: expected.source,
+    })
+}

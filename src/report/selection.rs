@@ -1,0 +1,149 @@
+//! Which runs a figure shows, how they are grouped and what they are called.
+
+use super::format;
+use crate::store::model::{Run, Status};
+use crate::study::model::{AxisValue, Selection, Study};
+
+/// Runs that share a value of the grouping parameter.
+pub struct Group<'a> {
+    /// Empty when nothing groups them.
+    pub label: String,
+    pub runs: Vec<&'a Run>,
+}
+
+/// The completed runs that a selection admits. Failed points never enter a figure.
+pub fn chosen<'a>(runs: &'a [Run], selection: &Selection) -> Vec<&'a Run> {
+    runs.iter()
+        .filter(|run| run.status == Status::Completed && admits(selection, run))
+        .collect()
+}
+
+pub fn admits(selection: &Selection, run: &Run) -> bool {
+    let scene = selection.scenes.is_empty() || selection.scenes.contains(&run.scene);
+    scene
+        && selection.axes.iter().all(|(name, admitted)| {
+            let value = run.parameter(name);
+            value.is_some_and(|value| admitted.iter().any(|other| same(other, &value)))
+        })
+}
+
+/// Equal but for rounding.
+pub fn same(one: &AxisValue, other: &AxisValue) -> bool {
+    match (one, other) {
+        (AxisValue::Number(one), AxisValue::Number(other)) => {
+            (one - other).abs() <= 1e-9 * one.abs().max(other.abs())
+        }
+        (one, other) => one == other,
+    }
+}
+
+/// Groups in the order in which they first appear.
+pub fn grouped<'a>(study: &Study, runs: &[&'a Run], by: Option<&str>) -> Vec<Group<'a>> {
+    let Some(name) = by else {
+        return vec![Group {
+            label: String::new(),
+            runs: runs.to_vec(),
+        }];
+    };
+    let mut groups: Vec<(Option<AxisValue>, Group)> = Vec::new();
+    for run in runs {
+        let value = run.parameter(name);
+        let found = groups.iter_mut().find(|(known, _)| match (known, &value) {
+            (Some(known), Some(value)) => same(known, value),
+            (known, value) => known.is_none() && value.is_none(),
+        });
+        match found {
+            Some((_, group)) => group.runs.push(run),
+            None => {
+                let label = match &value {
+                    Some(value) => named(study, name, value),
+                    None => format!("without {}", format::words(name)),
+                };
+                groups.push((
+                    value,
+                    Group {
+                        label,
+                        runs: vec![run],
+                    },
+                ));
+            }
+        }
+    }
+    groups.into_iter().map(|(_, group)| group).collect()
+}
+
+/// `width 4.2 mm`; a scene goes by its name alone.
+pub fn named(study: &Study, name: &str, value: &AxisValue) -> String {
+    if name == "scene" {
+        return shown(study, name, value);
+    }
+    format!("{} {}", format::words(name), shown(study, name, value))
+}
+
+/// A parameter's value with its unit.
+pub fn shown(study: &Study, name: &str, value: &AxisValue) -> String {
+    match value {
+        AxisValue::Number(number) => {
+            let unit = format::readable(axis_unit(study, name), *number);
+            format!("{} {}", format::number(number * unit.factor), unit.label)
+                .trim_end()
+                .to_owned()
+        }
+        AxisValue::Flag(true) => "yes".to_owned(),
+        AxisValue::Flag(false) => "no".to_owned(),
+        AxisValue::Word(word) => format::words(word),
+    }
+}
+
+/// SI unit of an axis; `1` when the study knows none of that name.
+pub fn axis_unit<'a>(study: &'a Study, name: &str) -> &'a str {
+    study
+        .axes
+        .iter()
+        .find(|axis| axis.name == name)
+        .map_or("1", |axis| &axis.unit)
+}
+
+/// A run in words: scene, axes, and the seed where the study has several.
+pub fn label(study: &Study, run: &Run) -> String {
+    let mut parts = Vec::new();
+    if study.scenes.len() > 1 {
+        parts.push(format::words(&run.scene));
+    }
+    parts.extend(run.axes.iter().map(|(name, value)| named(study, name, value)));
+    if study.seeds.len() > 1 {
+        parts.push(format!("seed {}", run.seed));
+    }
+    if parts.is_empty() {
+        format::words(&run.scene)
+    } else {
+        parts.join(", ")
+    }
+}
+
+/// `scene` and axes with more than one value among the runs, without those named.
+pub fn varying(runs: &[&Run], without: &[&str]) -> Vec<String> {
+    let mut names: Vec<String> = vec!["scene".to_owned()];
+    names.retain(|name| !without.contains(&name.as_str()));
+    for run in runs {
+        for (name, _) in &run.axes {
+            if !names.contains(name) && !without.contains(&name.as_str()) {
+                names.push(name.clone());
+            }
+        }
+    }
+    names.retain(|name| {
+        let mut values = runs.iter().filter_map(|run| run.parameter(name));
+        let first = values.next();
+        first.is_some_and(|first| values.any(|value| !same(&first, &value)))
+    });
+    names
+}
+
+/// The number behind a parameter.
+pub fn numeric(run: &Run, name: &str) -> Option<f64> {
+    match run.parameter(name) {
+        Some(AxisValue::Number(value)) => Some(value),
+        _ => None,
+    }
+}
