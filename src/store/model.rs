@@ -89,7 +89,7 @@ impl Run {
 }
 
 /// The first leaf called `name` in a tree of settings, depth first.
-fn leaf(tree: &serde_json::Value, name: &str) -> Option<AxisValue> {
+pub fn leaf(tree: &serde_json::Value, name: &str) -> Option<AxisValue> {
     let fields = tree.as_object()?;
     let here = fields
         .get(name)
