@@ -99,15 +99,12 @@ mod tests {
 
     #[test]
     fn problems_know_their_end() {
-        assert_eq!(Problem::from(StudyError("x".into())).status(), Status::BadInput);
+        let full = std::io::Error::from(std::io::ErrorKind::StorageFull);
         assert_eq!(
             Problem::from(RunError::Input("x".into())).status(),
             Status::BadInput
         );
-        assert_eq!(
-            Problem::from(RunError::Store(StoreError("x".into()))).status(),
-            Status::Damaged
-        );
-        assert_eq!(Problem::from(ReportError("x".into())).status(), Status::Damaged);
+        assert_eq!(Problem::from(full).status(), Status::Damaged);
+        assert_eq!(Problem::Interrupted.status(), Status::Incomplete);
     }
 }
