@@ -41,7 +41,7 @@ const CRATES: [(&str, &[&str]); 7] = [
     ("polars_io", &["report"]),
     ("plotters", &["report"]),
     ("minijinja", &["report"]),
-    ("serde_saphyr", &["study"]),
+    ("serde_saphyr", &["study", "reference"]),
     ("clap", &["cli", "main"]),
 ];
 
@@ -219,7 +219,7 @@ fn stands_alone(code: &str, text: &str) -> bool {
 fn habits(folder: &Path) -> Vec<String> {
     let mut faults = Vec::new();
     for source in sources(folder) {
-        let product = source.code.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
+        let product = before_tests(&source.code);
         let words = FORBIDDEN.iter().filter(|word| product.contains(*word));
         faults.extend(words.map(|word| source.fault(&format!("`{word}` outside of tests"))));
         if source.lines > LONGEST {
@@ -227,6 +227,19 @@ fn habits(folder: &Path) -> Vec<String> {
         }
     }
     faults
+}
+
+/// The part of a file before its module of tests.
+fn before_tests(code: &str) -> &str {
+    let marks = code.match_indices("#[cfg(test)]\n");
+    let tests = marks
+        .map(|(start, mark)| (start, &code[start + mark.len()..]))
+        .find(|(_, rest)| {
+            rest.lines()
+                .next()
+                .is_some_and(|line| line.contains("mod ") && line.ends_with('{'))
+        });
+    tests.map_or(code, |(start, _)| &code[..start])
 }
 
 fn harness() -> Vec<(String, Vec<String>)> {
