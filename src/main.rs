@@ -8,6 +8,7 @@ use kynch::cli::arguments::Arguments;
 use kynch::cli::command::{Command, completions};
 use kynch::cli::console::Console;
 use kynch::cli::status::{Problem, Status};
+use kynch::store::Store;
 
 fn main() -> ExitCode {
     let console = Console::from_environment();
@@ -21,18 +22,18 @@ fn main() -> ExitCode {
 
 fn perform(console: &Console, command: &Command) -> Result<Status, Problem> {
     match command {
-        Command::Study(job, reporting) => for_each(console, job, |study, store, options| {
+        Command::Study(job, reporting) => for_each(console, job, Store::open, |study, store, options| {
             let ran = run(console, &study, store, options)?;
             let judged = make_report(console, study, store, options, reporting)?;
             Ok(ran.max(judged))
         }),
-        Command::Plan(job) => for_each(console, job, |study, store, options| {
+        Command::Plan(job) => for_each(console, job, Store::read, |study, store, options| {
             show_plan(console, &study, store, options)
         }),
-        Command::Run(job) => for_each(console, job, |study, store, options| {
+        Command::Run(job) => for_each(console, job, Store::open, |study, store, options| {
             run(console, &study, store, options)
         }),
-        Command::Report(job, reporting) => for_each(console, job, |study, store, options| {
+        Command::Report(job, reporting) => for_each(console, job, Store::read, |study, store, options| {
             make_report(console, study, store, options, reporting)
         }),
         Command::Explain(names) => explain(console, names),

@@ -12,7 +12,7 @@ use super::status::{Problem, Status};
 use super::{physics, plan, verdicts};
 use crate::judge::judge;
 use crate::runner::{self, Options, State, survey};
-use crate::store::{self, Store};
+use crate::store::{self, Store, StoreError};
 use crate::study::model::{Point, Study};
 use crate::{report, study};
 
@@ -24,7 +24,7 @@ pub struct Tally {
     pub missing: usize,
 }
 
-/// Does something with each study of a job, its store open and its options understood. Nothing
+/// Does something with each study of a job, its store opened and its options understood. Nothing
 /// starts before all studies are read; the first problem ends it, after what went before.
 ///
 /// # Errors
@@ -32,6 +32,7 @@ pub struct Tally {
 pub fn for_each(
     console: &Console,
     job: &Job,
+    open: fn(&Path) -> Result<Store, StoreError>,
     act: impl Fn(Study, &Store, &Options) -> Result<Status, Problem>,
 ) -> Result<Status, Problem> {
     let studies = load(console, &job.names)?;
@@ -39,7 +40,7 @@ pub fn for_each(
         .iter()
         .map(|study| resolve(study, &job.only, &job.options));
     let options = options.collect::<Result<Vec<_>, _>>().map_err(Problem::Input)?;
-    let store = Store::open(&job.store)?;
+    let store = open(&job.store)?;
     let mut worst = Status::Held;
     for (study, options) in studies.into_iter().zip(&options) {
         match act(study, &store, options) {
@@ -93,7 +94,7 @@ pub fn show_plan(
     let rate = if nothing_due {
         Rate::DEFAULT
     } else {
-        Rate::of_machine(&points, store)?
+        Rate::of_machine(&points, store)
     };
     let cores = || std::thread::available_parallelism().map_or(1, |cores| cores.get());
     let workers = options.jobs.unwrap_or_else(cores);
@@ -146,11 +147,17 @@ pub fn make_report(
     };
     let planned = survey(&study, store, &whole)?;
     let ids: Vec<_> = planned.iter().map(|planned| planned.id.clone()).collect();
+    let mut runs = store.load(&ids)?;
+    for run in &mut runs {
+        // Another study may have run the point first, under names of its own.
+        if let Some(planned) = planned.iter().find(|planned| planned.id == run.id) {
+            run.relabel(&study.name, &planned.point);
+        }
+    }
     study.plan.points = planned.into_iter().map(|planned| planned.point).collect();
     if let Some(last) = options.seeds {
         study.seeds = (1..=last).collect();
     }
-    let runs = store.load(&ids)?;
     let judged = judge(&study, &runs);
     let index = report::render(&study, &runs, &judged, &reporting.out.join(&study.name))?;
     console.say(&verdicts::verdicts(&judged, &tally, &index, console.paint))?;
@@ -179,7 +186,7 @@ pub fn verify(console: &Console, dir: &Path) -> Result<Status, Problem> {
             "there is no store at `{dir}`; name one with --store DIR"
         )));
     }
-    let damage = Store::open(dir)?.verify()?;
+    let damage = Store::inspect(dir)?;
     if damage.is_empty() {
         console.say(&format!("{}: every file is as it was written\n", dir.display()))?;
         return Ok(Status::Held);

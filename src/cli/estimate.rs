@@ -2,8 +2,8 @@
 
 use std::time::Duration;
 
+use crate::store::Store;
 use crate::store::model::{Run, Status};
-use crate::store::{Store, StoreError};
 use crate::study::model::{Point, Work};
 
 /// Particle-steps per second and core taken where nothing has been measured yet.
@@ -40,15 +40,12 @@ impl Rate {
         }
     }
 
-    /// From the runs in the store whose settings some point of the study has, of whatever version
-    /// of the simulator.
-    pub fn of_machine(points: &[&Point], store: &Store) -> Result<Rate, StoreError> {
-        let mut ids: Vec<_> = store.finished()?.into_iter().collect();
-        ids.retain(|(_, status)| *status == Status::Completed);
-        ids.sort_by(|a, b| a.0.cmp(&b.0));
-        let ids: Vec<_> = ids.into_iter().map(|(id, _)| id).collect();
-        let runs = store.load(&ids)?;
-        Ok(Rate::measured(runs.iter().filter_map(|run| pair(points, run))))
+    /// From the completed runs in the store that have the settings of some point, of whatever
+    /// version of the simulator.
+    pub fn of_machine(points: &[&Point], store: &Store) -> Rate {
+        let mut runs = store.summaries();
+        runs.retain(|run| run.status == Status::Completed);
+        Rate::measured(runs.iter().filter_map(|run| pair(points, run)))
     }
 
     /// Time of one point on one core.

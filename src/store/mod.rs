@@ -26,6 +26,21 @@ impl Store {
         todo!()
     }
 
+    /// Opens a store without locking or changing it; an absent one is empty.
+    pub fn read(_dir: &Path) -> Result<Store, StoreError> {
+        todo!()
+    }
+
+    /// Everything wrong with the store in a folder, which need not be fit for opening.
+    pub fn inspect(_dir: &Path) -> Result<Vec<Damage>, StoreError> {
+        todo!()
+    }
+
+    /// Every run of the store, of whatever study and version, without its tables.
+    pub fn summaries(&self) -> Vec<Run> {
+        todo!()
+    }
+
     /// Points with a finished run, and how it ended.
     pub fn finished(&self) -> Result<HashMap<PointId, Status>, StoreError> {
         todo!()

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::study::model::AxisValue;
+use crate::study::model::{AxisValue, Point};
 
 /// Identity of a point: BLAKE3 of canonical settings, seed, simulator sources and schema, in hex.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -17,6 +17,26 @@ pub enum Status {
     Panicked,
     TimedOut,
     OutOfMemory,
+}
+
+impl Status {
+    /// As it is written in the store.
+    pub fn name(self) -> &'static str {
+        match self {
+            Status::Completed => "completed",
+            Status::Diverged => "diverged",
+            Status::Panicked => "panicked",
+            Status::TimedOut => "timed_out",
+            Status::OutOfMemory => "out_of_memory",
+        }
+    }
+
+    pub fn from_name(name: &str) -> Option<Status> {
+        use Status::{Completed, Diverged, OutOfMemory, Panicked, TimedOut};
+        [Completed, Diverged, Panicked, TimedOut, OutOfMemory]
+            .into_iter()
+            .find(|status| status.name() == name)
+    }
 }
 
 /// One finished run, whatever its end.
@@ -80,6 +100,14 @@ impl Run {
         self.axis(name).cloned().or_else(|| leaf(&self.settings, name))
     }
 
+    /// Gives the run the names that `study` has for it. Two studies may share a point and call its
+    /// scene and axes differently; the store keeps the names of whoever computed it first.
+    pub fn relabel(&mut self, study: &str, point: &Point) {
+        self.study = study.to_string();
+        self.scene.clone_from(&point.scene);
+        self.axes.clone_from(&point.axes);
+    }
+
     pub fn axis(&self, name: &str) -> Option<&AxisValue> {
         self.axes
             .iter()
@@ -89,7 +117,7 @@ impl Run {
 }
 
 /// The first leaf called `name` in a tree of settings, depth first.
-pub fn leaf(tree: &serde_json::Value, name: &str) -> Option<AxisValue> {
+pub(crate) fn leaf(tree: &serde_json::Value, name: &str) -> Option<AxisValue> {
     let fields = tree.as_object()?;
     let here = fields
         .get(name)

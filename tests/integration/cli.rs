@@ -418,6 +418,7 @@ fn a_plan_runs_nothing_and_tells_why_points_would_run() {
     );
     let dry = desk.ends("run limits --dry-run", 0);
     assert_eq!(dry.out, said.out);
+    assert!(!desk.path("store").exists(), "a plan made a store");
     desk.ends("run limits --only scene=near", 0);
     let said = desk.ends("plan limits", 0);
     assert!(
