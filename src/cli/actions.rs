@@ -7,7 +7,6 @@ use super::arguments::Reporting;
 use super::command::Job;
 use super::console::Console;
 use super::estimate::Rate;
-use super::selection::resolve;
 use super::status::{Problem, Status};
 use super::{physics, plan, verdicts};
 use crate::judge::judge;
@@ -24,8 +23,8 @@ pub struct Tally {
     pub missing: usize,
 }
 
-/// Does something with each study of a job, its store opened and its options understood. Nothing
-/// starts before all studies are read; the first problem ends it, after what went before.
+/// Does something with each study of a job, its store opened. Nothing starts before all studies are
+/// read and the selection has points in each; the first problem ends it, after what went before.
 ///
 /// # Errors
 /// Whatever is wrong before the first study starts.
@@ -36,14 +35,13 @@ pub fn for_each(
     act: impl Fn(Study, &Store, &Options) -> Result<Status, Problem>,
 ) -> Result<Status, Problem> {
     let studies = load(console, &job.names)?;
-    let options = studies
-        .iter()
-        .map(|study| resolve(study, &job.only, &job.options));
-    let options = options.collect::<Result<Vec<_>, _>>().map_err(Problem::Input)?;
     let store = open(&job.store)?;
+    for study in &studies {
+        survey(study, &store, &job.options)?;
+    }
     let mut worst = Status::Held;
-    for (study, options) in studies.into_iter().zip(&options) {
-        match act(study, &store, options) {
+    for study in studies {
+        match act(study, &store, &job.options) {
             Ok(status) => worst = worst.max(status),
             Err(problem) => {
                 console.complain_about(&problem);

@@ -8,7 +8,7 @@ use clap_complete::Shell;
 
 use super::arguments::{Action, Arguments, Choice, Limits, Place, Reporting, Studies};
 use super::magnitude::{bytes, duration};
-use super::selection::{Only, only};
+use super::selection::only;
 use super::status::Problem;
 use crate::runner::Options;
 
@@ -31,9 +31,6 @@ pub enum Command {
 pub struct Job {
     pub names: Vec<String>,
     pub store: PathBuf,
-    /// The selection as typed: its values have units that only a study's axes can tell.
-    pub only: Vec<Only>,
-    /// All options but `only`.
     pub options: Options,
 }
 
@@ -105,15 +102,12 @@ impl Job {
             options.max_failures = limits.max_failures;
             options.fresh = limits.fresh;
         }
-        let only = choice
-            .only
-            .iter()
-            .map(|text| only(text))
-            .collect::<Result<_, _>>();
+        for text in &choice.only {
+            options.only.extend(only(text).map_err(Problem::Input)?);
+        }
         Ok(Job {
             names: studies.names,
             store: place.store,
-            only: only.map_err(Problem::Input)?,
             options,
         })
     }

@@ -37,6 +37,11 @@ pub fn scenes() -> Vec<Entry> {
     todo!()
 }
 
+/// A number with a unit (`2 mm`) in SI units; nothing for any other text.
+pub fn quantity(_text: &str) -> Option<f64> {
+    todo!()
+}
+
 /// JSON Schema of a study file.
 pub fn schema() -> serde_json::Value {
     todo!()

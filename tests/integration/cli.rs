@@ -236,7 +236,7 @@ fn an_empty_selection_ends_with_2_and_says_what_there_is() {
     let desk = Desk::with_study();
     let said = desk.ends("run limits --only error=0.5", 2);
     assert!(
-        said.err.contains("nothing selected") && said.err.contains("0.001, 0.002"),
+        said.err.contains("selects no point") && said.err.contains("0.001, 0.002"),
         "{}",
         said.err
     );
@@ -327,6 +327,7 @@ fn only_and_limit_leave_the_rest_for_later() {
     let desk = Desk::with_study();
     let said = desk.ends("run limits --only error=0.002 --only scene=near,far", 0);
     assert!(said.out.contains("2 completed"), "{}", said.out);
+    desk.ends("run limits --only error=0.2% --only scene=near", 0);
     let said = desk.ends("run limits --limit 1", 3);
     assert!(
         said.out.contains("2 cached, 1 completed") && said.out.contains("1 not run"),
