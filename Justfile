@@ -26,7 +26,7 @@ verify store="store":
 
 # speed of the simulator: lines `BENCH <name> <value> <unit>`
 bench:
-    cargo bench -p kynch-sim
+    cargo bench -p kynch-sim --bench '*'
 
 # format the sources
 fmt:

@@ -133,7 +133,7 @@ pub struct Limits {
     /// Run points again though they are finished
     #[arg(long)]
     pub fresh: bool,
-    /// Where points run
+    /// Where points run: on threads of this process
     #[arg(long, value_enum, default_value_t = Executor::Local)]
     pub executor: Executor,
     /// Show the plan and run nothing
@@ -153,7 +153,6 @@ pub struct Reporting {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Executor {
-    /// Threads of this process
     Local,
 }
 

@@ -87,25 +87,25 @@ fn totals(planned: &[Planned], rate: Rate, workers: usize) -> String {
     }
     let times: Vec<Duration> = due.iter().map(|work| rate.time(work)).collect();
     let work: f64 = due.iter().map(|work| particle_steps(work)).sum();
+    let together = time(together(&times, workers));
     let _ = writeln!(
         text,
-        "work: {} particle-steps, about {} with {} at a time",
-        number(work),
-        time(together(&times, workers)),
+        "about {together} with {} at a time",
         count(workers, "point")
     );
-    text.push_str(&origin(rate));
+    if work > 0.0 {
+        let _ = writeln!(text, "work: {} particle-steps{}", number(work), origin(rate));
+    }
     text
 }
 
+/// Where the times come from.
 fn origin(rate: Rate) -> String {
     let speed = number(rate.speed);
     match rate.measured_on {
-        0 => format!(
-            "times assume {speed} particle-steps per second and core: nothing was measured here yet\n"
-        ),
+        0 => format!(", at an assumed {speed} per second and core: nothing was measured here yet"),
         runs => format!(
-            "times follow from {speed} particle-steps per second and core, measured on {}\n",
+            ", at {speed} per second and core as measured on {}",
             count(runs, "earlier run")
         ),
     }

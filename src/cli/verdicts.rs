@@ -50,9 +50,9 @@ fn line(verdict: &Verdict, paint: Paint) -> String {
         Outcome::Fails => paint.red("✗ fails"),
         Outcome::NotDecidable => paint.yellow("? not decidable"),
     };
-    let mut text = format!("{mark}  {}", verdict.statement);
+    let mut text = format!("{mark}  {}: {}", verdict.id, verdict.statement);
     if let Some(found) = found(verdict) {
-        let _ = write!(text, ": {found}, band {}", verdict.band);
+        let _ = write!(text, "; {found}, band {}", verdict.band);
     }
     if !verdict.source.is_empty() {
         let _ = write!(text, "  {}", paint.dim(&format!("[{}]", verdict.source)));
@@ -140,9 +140,9 @@ mod tests {
             Path::new("reports/x/index.html"),
             Paint { on: false },
         );
-        let expected = "✓ holds  relative error of limit against known_limit < 2 %: error 0.01 at 1.01 m/s, \
+        let expected = "✓ holds  error-1: relative error of limit against known_limit < 2 %; error 0.01 at 1.01 m/s, \
                         band < 0.02  [by construction]\n\
-                        ✗ fails  relative error of limit against known_limit < 2 %: error 0.01 at 1.01 m/s, \
+                        ✗ fails  error-1: relative error of limit against known_limit < 2 %; error 0.01 at 1.01 m/s, \
                         band < 0.02  [by construction]\n    too coarse\n\
                         2 expectations: 1 held, 1 failed, 0 not decidable · 3 points: 2 completed, 1 failed, \
                         0 missing\nreports/x/index.html\n";
