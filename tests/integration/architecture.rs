@@ -49,7 +49,7 @@ const CRATES: [(&str, &[&str]); 7] = [
 const FORBIDDEN: [&str; 4] = [".unwrap()", "todo!(", "unimplemented!(", "dbg!("];
 
 /// Longest file, tests included: a reason to look long before.
-const LONGEST: usize = 600;
+const LONGEST: usize = 800;
 
 /// A source file with the comments taken out.
 struct Source {
