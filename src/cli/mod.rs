@@ -1,1 +1,21 @@
-//! Arguments only: what was typed, and what it means.
+//! What was typed, what it means, and what is said about it.
+
+pub mod actions;
+pub mod arguments;
+pub mod command;
+pub mod console;
+pub mod status;
+
+mod estimate;
+mod list;
+mod magnitude;
+mod physics;
+mod plan;
+mod selection;
+mod table;
+mod verdicts;
+
+#[cfg(test)]
+mod example;
+
+pub use list::list;

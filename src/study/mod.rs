@@ -21,6 +21,11 @@ pub use assemble::parse;
 pub use file::{Entry, find, list, load, scenes};
 pub use problem::{Problem, StudyError};
 
+/// A number with a unit (`2 mm`) in SI units; nothing for any other text.
+pub fn quantity(_text: &str) -> Option<f64> {
+    todo!()
+}
+
 /// JSON Schema of a study file.
 pub fn schema() -> serde_json::Value {
     spec::schema()
