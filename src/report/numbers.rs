@@ -1,6 +1,8 @@
 //! Where the report gets its judged numbers and reference curves: from the judge and the references,
 //! never from formulas of its own.
 
+use crate::judge;
+use crate::judge::convergence::{Honesty, extrapolate, observed_order};
 use crate::reference::{self, Facts};
 use crate::store::model::Run;
 
@@ -66,7 +68,7 @@ impl Numbers<'static> {
     pub const JUDGED: Numbers<'static> = Numbers {
         error: &point_error,
         convergence: &convergence,
-        front: &front,
+        front: &judge::pareto::front,
         curve: &curve,
     };
 }
@@ -74,16 +76,32 @@ impl Numbers<'static> {
 /// Resolutions that the documentation recommends, by axis; marked in run time against error.
 pub const RECOMMENDED: &[(&str, f64)] = &[("spacing_over_diameter", 2.0)];
 
-fn point_error(_run: &Run, of: &str, against: &str) -> Result<PointError, String> {
-    Err(format!("the error of {of} against {against} is not known"))
+fn point_error(run: &Run, of: &str, against: &str) -> Result<PointError, String> {
+    let found = judge::point_error::point_error(run, of, against).map_err(|error| error.to_string())?;
+    Ok(PointError {
+        computed: Some(found.computed),
+        expected: Some(found.expected),
+        error: found.error,
+        signed: found.signed,
+        source: found.source,
+    })
 }
 
-fn convergence(_sweep: &[Resolved]) -> Convergence {
-    Convergence::default()
-}
-
-fn front(_pairs: &[(f64, f64)]) -> Vec<usize> {
-    Vec::new()
+/// An order or an index is given only where the judge calls the sweep monotone.
+fn convergence(sweep: &[Resolved]) -> Convergence {
+    let sizes: Vec<f64> = sweep.iter().map(|point| point.resolution).collect();
+    let errors: Vec<f64> = sweep.iter().map(|point| point.error).collect();
+    let observed = observed_order(&sizes, &errors);
+    let values: Option<Vec<f64>> = sweep.iter().map(|point| point.value).collect();
+    let extrapolated = values.map(|values| extrapolate(&sizes, &values, observed.order));
+    let index = extrapolated
+        .filter(|extrapolated| extrapolated.honesty == Honesty::Monotone)
+        .and_then(|extrapolated| extrapolated.indices.first().copied());
+    Convergence {
+        order: (observed.honesty == Honesty::Monotone).then_some(observed.order),
+        index,
+        honesty: observed.honesty.words().to_owned(),
+    }
 }
 
 fn curve(run: &Run, name: &str, times: &[f64]) -> Result<Curve, String> {

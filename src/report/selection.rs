@@ -1,6 +1,7 @@
 //! Which runs a figure shows, how they are grouped and what they are called.
 
 use super::format;
+pub use crate::judge::select::{admits, same};
 use crate::store::model::{Run, Status};
 use crate::study::model::{AxisValue, Selection, Study};
 
@@ -16,25 +17,6 @@ pub fn chosen<'a>(runs: &'a [Run], selection: &Selection) -> Vec<&'a Run> {
     runs.iter()
         .filter(|run| run.status == Status::Completed && admits(selection, run))
         .collect()
-}
-
-pub fn admits(selection: &Selection, run: &Run) -> bool {
-    let scene = selection.scenes.is_empty() || selection.scenes.contains(&run.scene);
-    scene
-        && selection.axes.iter().all(|(name, admitted)| {
-            let value = run.parameter(name);
-            value.is_some_and(|value| admitted.iter().any(|other| same(other, &value)))
-        })
-}
-
-/// Equal but for rounding.
-pub fn same(one: &AxisValue, other: &AxisValue) -> bool {
-    match (one, other) {
-        (AxisValue::Number(one), AxisValue::Number(other)) => {
-            (one - other).abs() <= 1e-9 * one.abs().max(other.abs())
-        }
-        (one, other) => one == other,
-    }
 }
 
 /// Groups in the order in which they first appear.

@@ -574,3 +574,60 @@ fn every_figure_becomes_a_picture() {
         written(&study(), &with_a_failure(), &verdicts(), &folder);
     }
 }
+
+/// The whole way with the judge's own numbers: a sweep whose error is 3 % · scale² exactly.
+#[test]
+fn a_rehearsed_sweep_shows_the_order_it_was_given() {
+    let rehearsed = |scale: f64| {
+        let found = 2.0 * (1.0 + 0.03 * scale.powi(2));
+        let mut run = run(0, scale);
+        run.settings = serde_json::json!({"rehearsal": {
+            "limit": 2.0, "time_constant": 0.1, "duration": 1.0, "samples": 20, "scale": scale,
+            "order": 2.0, "error": 0.03, "delay": 0.0, "ending": "completes"
+        }});
+        run.axes = vec![("scale".into(), AxisValue::Number(scale))];
+        run.scalars = vec![Scalar {
+            name: "limit".into(),
+            unit: "m/s".into(),
+            value: found,
+        }];
+        run
+    };
+    let runs: Vec<Run> = [0.125, 0.25, 0.5, 1.0].map(rehearsed).to_vec();
+    let kind = |convergence: bool| {
+        let (of, against) = ("limit".into(), "known_limit".into());
+        match convergence {
+            true => FigureKind::ErrorAgainstResolution {
+                of,
+                against,
+                over: "scale".into(),
+                group: None,
+            },
+            false => FigureKind::RunTimeAgainstError {
+                of,
+                against,
+                group: None,
+            },
+        }
+    };
+    let study = Study {
+        figures: vec![drawn("order", kind(true)), drawn("price", kind(false))],
+        ..study()
+    };
+    let folder = tempfile::tempdir().unwrap();
+    super::render(&study, &runs, &[], folder.path()).unwrap();
+    let file = |name: &str| std::fs::read_to_string(folder.path().join("figures").join(name)).unwrap();
+    assert!(file("order.svg").contains("order 2.0"));
+    assert_eq!(file("price.csv").matches(",yes\n").count(), 4);
+    let index: f64 = file("order.csv")
+        .lines()
+        .nth(1)
+        .unwrap()
+        .rsplit(',')
+        .next()
+        .unwrap()
+        .parse()
+        .unwrap();
+    // Three quarters of the difference between the two finest are what is left: 1.25 times the true error.
+    assert!((index - 1.25 * 0.03 * 0.125f64.powi(2)).abs() < 1e-5, "{index}");
+}
