@@ -32,7 +32,7 @@ pub fn find(name: &str) -> Result<PathBuf, StudyError> {
     if is_path && path.exists() {
         return Ok(path);
     }
-    let named = Path::new(FOLDER).join(format!("{name}.yaml"));
+    let named = folder().join(format!("{name}.yaml"));
     if !is_path || named.is_file() {
         if named.is_file() {
             return Ok(named);
@@ -47,6 +47,17 @@ pub fn find(name: &str) -> Result<PathBuf, StudyError> {
         "there is no such file",
         "check the path; a name alone is looked up in studies/",
     ))
+}
+
+/// `studies/` here, or in the nearest folder above that has one.
+fn folder() -> PathBuf {
+    let here = PathBuf::from(FOLDER);
+    if here.is_dir() {
+        return here;
+    }
+    let above = std::env::current_dir().unwrap_or_default();
+    let mut folders = above.ancestors().map(|folder| folder.join(FOLDER));
+    folders.find(|folder| folder.is_dir()).unwrap_or(here)
 }
 
 /// Parses, checks and expands a study file.
@@ -113,7 +124,7 @@ fn read(path: &Path) -> Result<String, StudyError> {
 /// Every study below `studies/`, with its question.
 pub fn list() -> Vec<Entry> {
     let mut entries = Vec::new();
-    gather(Path::new(FOLDER), "", &mut entries);
+    gather(&folder(), "", &mut entries);
     entries.sort_by(|left, right| left.name.cmp(&right.name));
     entries
 }

@@ -22,8 +22,8 @@ pub use file::{Entry, find, list, load, scenes};
 pub use problem::{Problem, StudyError};
 
 /// A number with a unit (`2 mm`) in SI units; nothing for any other text.
-pub fn quantity(_text: &str) -> Option<f64> {
-    todo!()
+pub fn quantity(text: &str) -> Option<f64> {
+    units::parse(text).ok().map(|measured| measured.value)
 }
 
 /// JSON Schema of a study file.

@@ -2,8 +2,8 @@
 
 use kynch_sim::scene::{
     Column, ConstantPorosityBlock, Coupling, Drag, Fluid, Grains, Hydrostatics, KernelChoice, Medium,
-    PorosityPath, Scene, Scheme, SelfDisturbance, SingleSphere, Slip, SoundSpeed, SphFluid, Start,
-    StressDensity,
+    PorosityPath, Scene, Scheme, SelfDisturbance, SharpeningChoice, SingleSphere, Slip, SoundSpeed, SphFluid,
+    Start, StressDensity,
 };
 
 use super::model::{Rehearsal, RehearsalEnding, Work};
@@ -161,6 +161,10 @@ fn scheme(spec: &SchemeSpec) -> Scheme {
         porosity: match spec.porosity {
             PorosityPathSpec::OnePass => PorosityPath::OnePass,
             PorosityPathSpec::TwoPass => PorosityPath::TwoPass,
+        },
+        sharpening: match spec.sharpening {
+            SharpeningSpec::None => SharpeningChoice::None,
+            SharpeningSpec::Conservative => SharpeningChoice::Conservative,
         },
         start: match spec.start {
             StartSpec::Exact => Start::Exact,

@@ -146,6 +146,8 @@ pub struct SchemeSpec {
     /// Constant between α and the real viscosity; `none` takes the Morris form.
     pub viscosity_constant: CoefficientSpec,
     pub porosity: PorosityPathSpec,
+    /// Whether smoothing gives back what it takes from sharp edges.
+    pub sharpening: SharpeningSpec,
     pub start: StartSpec,
     /// Density that multiplies the fluid stress on a grain.
     pub stress_density: PhaseSpec,
@@ -169,6 +171,7 @@ impl Default for SchemeSpec {
             artificial_viscosity: CoefficientSpec::None,
             viscosity_constant: CoefficientSpec::None,
             porosity: PorosityPathSpec::OnePass,
+            sharpening: SharpeningSpec::Conservative,
             start: StartSpec::Exact,
             stress_density: PhaseSpec::Superficial,
             slip: SlipSpec::Superficial,
@@ -200,6 +203,13 @@ pub enum KernelSpec {
 pub enum PorosityPathSpec {
     OnePass,
     TwoPass,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SharpeningSpec {
+    None,
+    Conservative,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, Serialize, JsonSchema)]

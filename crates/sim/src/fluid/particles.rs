@@ -152,11 +152,10 @@ impl FluidParticles {
     /// Sets masses and densities so that the particles carry `porosity` at `pressure` [Pa] exactly.
     pub fn prepare(&mut self, porosity: &[f64], pressure: impl Fn(&Vec3) -> f64) {
         let volume = self.numerics.spacing.powi(3);
+        self.porosity.copy_from_slice(porosity);
         for a in 0..self.len() {
-            let intrinsic = self.numerics.state.density_at(pressure(&self.position[a]));
-            self.porosity[a] = porosity[a];
-            self.density[a] = intrinsic;
-            self.mass[a] = porosity[a] * intrinsic * volume;
+            self.density[a] = self.numerics.state.density_at(pressure(&self.position[a]));
+            self.mass[a] = self.porosity[a] * self.density[a] * volume;
         }
     }
 
@@ -319,7 +318,7 @@ impl FluidParticles {
     fn refresh_rows(&mut self) {
         let allowed = 0.5 * SKIN * 2.0 * self.numerics.smoothing();
         let moved = |a: usize| (self.position[a] - self.anchor[a]).norm_squared();
-        if (0..self.len()).any(|a| !(moved(a) < allowed * allowed)) {
+        if (0..self.len()).any(|a| moved(a) >= allowed * allowed) {
             self.wrap();
             self.rebuild_rows();
         }

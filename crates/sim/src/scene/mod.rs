@@ -1,9 +1,17 @@
 //! The scenes the simulator knows, as plain data in SI units.
 
+mod check;
+mod describe;
+mod observables;
 mod profiles;
 mod record;
-pub mod run_sph;
-pub mod setup;
+mod run_prescribed;
+mod run_sph;
+mod setup;
+
+pub use check::check;
+pub use describe::describe;
+pub use observables::observables;
 
 use crate::outcome::{Control, Failure, Outcome};
 
@@ -282,21 +290,6 @@ pub struct Description {
     pub memory: u64,
 }
 
-/// All faults of a scene; empty when it can run.
-pub fn check(_scene: &Scene) -> Vec<Fault> {
-    todo!()
-}
-
-/// What a scene can be asked for.
-pub fn observables(_scene: &Scene) -> Vec<Observable> {
-    todo!()
-}
-
-/// The scene in words. Meaningful only for a scene without faults.
-pub fn describe(_scene: &Scene) -> Description {
-    todo!()
-}
-
 /// Runs the scene to its end.
 ///
 /// # Errors
@@ -305,6 +298,6 @@ pub fn run(scene: &Scene, control: &Control) -> Result<Outcome, Box<Failure>> {
     let settling = setup::Settling::of(scene);
     match settling.sph() {
         Some(sph) => setup::with_law!(settling.drag, law => run_sph::run(&settling, sph, law, control)),
-        None => todo!(),
+        None => setup::with_law!(settling.drag, law => run_prescribed::run(&settling, law, control)),
     }
 }

@@ -48,12 +48,12 @@ pub fn fluid<L: DragLaw>(simulation: &Simulation<L>) -> Vec<Table> {
 }
 
 /// Means over each horizontal layer of grains: the porosity they see, slip and drag.
-pub fn layers<L: DragLaw>(simulation: &Simulation<L>, layers: usize) -> Option<Table> {
+pub fn layers<L: DragLaw>(simulation: &Simulation<L>, layers: usize) -> Vec<Table> {
     let GrainPorosity::Known(porosity) = &simulation.rules.porosity else {
-        return None;
+        return Vec::new();
     };
-    if layers == 0 {
-        return None;
+    if layers == 0 || simulation.report.grain_slip.is_empty() {
+        return Vec::new();
     }
     let grains = &simulation.grains.position;
     let per_layer = grains.len() / layers;
@@ -63,31 +63,25 @@ pub fn layers<L: DragLaw>(simulation: &Simulation<L>, layers: usize) -> Option<T
             .map(|layer| layer.iter().sum::<f64>() / layer.len() as f64)
             .collect()
     };
-    let heights: Vec<f64> = grains.iter().map(|x| x.z).collect();
-    let report = &simulation.report;
-    Some(Table {
-        name: "layer_profile",
+    let heights = mean(&grains.iter().map(|x| x.z).collect::<Vec<_>>());
+    let table = |name, unit, values: &[f64]| Table {
+        name,
         columns: vec![
             Column {
                 name: "height",
                 unit: "m",
-                values: mean(&heights),
+                values: heights.clone(),
             },
             Column {
-                name: "grain_porosity",
-                unit: "1",
-                values: mean(porosity),
-            },
-            Column {
-                name: "grain_slip",
-                unit: "m/s",
-                values: mean(&report.grain_slip),
-            },
-            Column {
-                name: "grain_drag",
-                unit: "N",
-                values: mean(&report.grain_drag),
+                name,
+                unit,
+                values: mean(values),
             },
         ],
-    })
+    };
+    vec![
+        table("grain_porosity", "1", porosity),
+        table("grain_slip", "m/s", &simulation.report.grain_slip),
+        table("grain_drag", "N", &simulation.report.grain_drag),
+    ]
 }

@@ -20,6 +20,7 @@ pub struct Sample {
     pub slip: f64,
     pub drag: f64,
     pub stress: f64,
+    pub fluid_acceleration: f64,
     pub disturbance: f64,
     pub own_flow: f64,
     pub height: f64,
@@ -39,6 +40,8 @@ pub struct Recorder {
     spurious: f64,
     scalars: Vec<Scalar>,
     relaxation: f64,
+    /// Buoyancy that the fluid's stress does not hold [N].
+    buoyancy: f64,
     isolated: bool,
     block_layers: usize,
 }
@@ -67,6 +70,7 @@ impl Recorder {
             momentum_error: 0.0,
             spurious: 0.0,
             relaxation: settling.relaxation_time(),
+            buoyancy: settling.mass() * settling.gravity - simulation.grains.weight,
             isolated: settling.sphere.is_some(),
             block_layers: settling.block.map_or(0, |block| block.layers as usize),
             scalars: vec![
@@ -88,7 +92,7 @@ impl Recorder {
 
     /// Before a step: the momentum to compare with, on audited steps.
     pub fn before<L: DragLaw>(&mut self, simulation: &Simulation<L>, step: u64, dt: f64) {
-        self.auditing = step % AUDIT_INTERVAL == 0;
+        self.auditing = step.is_multiple_of(AUDIT_INTERVAL);
         if self.auditing {
             self.momentum_before = simulation.momentum(dt);
         }
@@ -110,7 +114,7 @@ impl Recorder {
                 .fold(0.0, f64::max);
             self.spurious = self.spurious.max(fastest.sqrt());
         }
-        if (step + 1) % self.every == 0 {
+        if (step + 1).is_multiple_of(self.every) {
             self.samples.push(self.sample(simulation));
         }
     }
@@ -123,6 +127,7 @@ impl Recorder {
             slip: report.slip,
             drag: report.drag,
             stress: report.stress,
+            fluid_acceleration: (report.drag + report.stress + self.buoyancy) / simulation.grains.mass,
             disturbance: report.sampled,
             own_flow: report.own_flow,
             height: simulation.grains.position[0].z,
@@ -155,7 +160,7 @@ impl Recorder {
                 .map(|s| (s.disturbance - s.own_flow).abs())
                 .fold(0.0, f64::max);
             let wake = settled().map(|s| s.disturbance.abs()).fold(0.0, f64::max);
-            push("disturbance", "1", wake / largest);
+            push("disturbance_share", "1", wake / largest);
             if self.samples.iter().any(|sample| sample.own_flow != 0.0) {
                 push("self_disturbance_error", "1", gap / wake);
             }
@@ -183,6 +188,7 @@ impl Recorder {
             column("slip_velocity", "m/s", |s| s.slip),
             column("drag_force", "N", |s| s.drag),
             column("stress_force", "N", |s| s.stress),
+            column("fluid_acceleration", "m/s²", |s| s.fluid_acceleration),
             column("momentum_error_history", "1", |s| s.momentum_error),
         ];
         if self.isolated {

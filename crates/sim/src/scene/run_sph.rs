@@ -50,7 +50,7 @@ pub fn run<L: DragLaw>(
         if let Some(reason) = divergence(&simulation) {
             return Err(failure(FailureKind::Diverged, reason, recorder, &simulation));
         }
-        if step % 16 == 0 {
+        if step.is_multiple_of(16) {
             (control.progress)(step as f64 / steps as f64);
         }
     }

@@ -1,0 +1,121 @@
+//! Runs a settling scene in a fluid that is not solved: at rest, or flowing back in a closed column.
+//!
+//! Every grain of the set sees the same fluid, so one grain stands for all. Buoyancy is that of the
+//! pure fluid (model B): force = −V ρ_f g + f/ε with the drag f of the superficial slip.
+
+use super::Fluid;
+use super::record::{terminal_window, window_mean};
+use super::setup::Settling;
+use crate::drag::DragLaw;
+use crate::integrator::ExactDrag;
+use crate::math::Vec3;
+use crate::outcome::{Column, Control, Counters, Failure, FailureKind, Outcome, Scalar, Table};
+
+/// Rows of a time series at most.
+const ROWS: usize = 600;
+
+/// Runs a scene without fluid particles under one drag law.
+pub fn run<L: DragLaw>(settling: &Settling, law: L, control: &Control) -> Result<Outcome, Box<Failure>> {
+    let (dt, steps) = settling.steps();
+    let start = settling.positions()[0].z;
+    let mut rows = vec![[0.0, 0.0, start, 0.0, 0.0, 0.0]];
+    let (mut velocity, mut height) = (Vec3::zeros(), start);
+    let held = settling.block.is_some_and(|block| block.held);
+    let every = (steps as usize).div_ceil(ROWS);
+    for step in 1..=steps {
+        if (control.stop)() {
+            let partial = outcome(settling, &rows, dt, step);
+            return Err(Box::new(Failure {
+                kind: FailureKind::Stopped,
+                reason: "stopped from outside".into(),
+                partial,
+            }));
+        }
+        let beta = coefficient(settling, law, velocity.norm());
+        if !held {
+            let weight = Vec3::new(0.0, 0.0, -settling.excess_weight());
+            let body = ExactDrag {
+                mass: settling.mass(),
+                drag: beta,
+                pull: Vec3::zeros(),
+                force: weight,
+            };
+            let (end, mean) = body.advance(velocity, dt);
+            velocity = end;
+            height = (height + mean.z * dt).max(0.5 * settling.grains.diameter);
+            if height <= 0.5 * settling.grains.diameter {
+                velocity = Vec3::zeros();
+            }
+        }
+        if (step as usize).is_multiple_of(every) {
+            let drag = -beta * velocity.z;
+            let buoyancy = settling.mass() * settling.gravity - settling.excess_weight();
+            let slip = superficial(settling, -velocity.z);
+            rows.push([
+                step as f64 * dt,
+                -velocity.z,
+                height,
+                slip,
+                drag,
+                (drag + buoyancy) / settling.mass(),
+            ]);
+        }
+    }
+    Ok(outcome(settling, &rows, dt, steps))
+}
+
+/// Superficial slip of a grain that moves at `speed`: ε v in a fluid at rest, v where it flows back.
+fn superficial(settling: &Settling, speed: f64) -> f64 {
+    match settling.fluid {
+        Fluid::Still(_) => settling.porosity() * speed,
+        _ => speed,
+    }
+}
+
+/// Drag per speed [kg/s] in the laboratory frame.
+fn coefficient<L: DragLaw>(settling: &Settling, law: L, speed: f64) -> f64 {
+    let share = superficial(settling, 1.0);
+    let porosity = settling.porosity();
+    share / porosity * settling.scale().coefficient(&law, share * speed, porosity)
+}
+
+fn outcome(settling: &Settling, rows: &[[f64; 6]], dt: f64, steps: u64) -> Outcome {
+    let column = |name, unit, i: usize| Column {
+        name,
+        unit,
+        values: rows.iter().map(|row| row[i]).collect(),
+    };
+    let columns = vec![
+        column("time", "s", 0),
+        column("velocity", "m/s", 1),
+        column("height", "m", 2),
+        column("slip_velocity", "m/s", 3),
+        column("drag_force", "N", 4),
+        column("fluid_acceleration", "m/s²", 5),
+    ];
+    let scalar = |name, unit, value| Scalar { name, unit, value };
+    let count = settling.positions().len() as f64;
+    let mut scalars = vec![
+        scalar("time_step", "s", dt),
+        scalar("porosity", "1", settling.porosity()),
+        scalar("grains", "1", count),
+        scalar("overlap", "1", 0.0),
+    ];
+    let window = terminal_window(settling, None);
+    if let Some((mean, drift)) = window_mean(&columns[0].values, &columns[1].values, window) {
+        scalars.push(scalar("terminal_velocity", "m/s", mean));
+        scalars.push(scalar("terminal_velocity_drift", "m/s", drift));
+    }
+    Outcome {
+        scalars,
+        tables: vec![Table {
+            name: "time_series",
+            columns,
+        }],
+        counters: Counters {
+            steps,
+            grain_steps: steps,
+            ..Counters::default()
+        },
+    }
+}
