@@ -36,13 +36,31 @@ pub fn lucy(distance: f64, length: f64) -> f64 {
     105.0 / (16.0 * PI * reach.powi(3)) * (1.0 + 3.0 * q) * (1.0 - q).powi(3)
 }
 
-/// Coefficients (a, b) that make (a − b r²) W a kernel of integral one without second moment, so that
-/// smoothing keeps parabolas.
-pub fn second_order(kernel: impl Fn(f64) -> f64, reach: f64) -> (f64, f64) {
+/// Coefficients (a, b) that make (a − b r²) W a kernel of integral one whose moment of the given power
+/// vanishes. Without the second moment smoothing keeps parabolas; without the first, a slab with sharp
+/// edges keeps its own mean, since a marginal's mean height is half the kernel's mean distance.
+pub fn without_moment(power: i32, kernel: impl Fn(f64) -> f64, reach: f64) -> (f64, f64) {
     let moment = |power: i32| simpson(|r| 4.0 * PI * r.powi(2 + power) * kernel(r), 0.0, reach, 400);
-    let (zeroth, second, fourth) = (moment(0), moment(2), moment(4));
-    let determinant = zeroth * fourth - second * second;
-    (fourth / determinant, second / determinant)
+    // a m_0 − b m_2 = 1 and a m_p − b m_(p+2) = 0.
+    let (low, high) = (moment(power), moment(power + 2));
+    let determinant = moment(0) * high - moment(2) * low;
+    (high / determinant, low / determinant)
+}
+
+/// Share of space [-] that grains of `volume` [m³] on a square lattice of `pitch` [m] in a plane take at a
+/// distance `height` [m] right above one of them, seen through a radial kernel [1/m³].
+pub fn lattice_sheet(kernel: impl Fn(f64) -> f64, reach: f64, volume: f64, pitch: f64, height: f64) -> f64 {
+    let sites = (reach / pitch) as i32 + 1;
+    let mut solid = 0.0;
+    for i in -sites..=sites {
+        for j in -sites..=sites {
+            let distance = (f64::from(i * i + j * j) * pitch * pitch + height * height).sqrt();
+            if distance < reach {
+                solid += volume * kernel(distance);
+            }
+        }
+    }
+    solid
 }
 
 /// An even function of height with bounded support, tabulated, linear between its nodes.
@@ -202,7 +220,7 @@ mod tests {
 
     #[test]
     fn second_order_kernels_have_no_variance() {
-        let (a, b) = second_order(|r| wendland_c2(r, LENGTH), 2.0 * LENGTH);
+        let (a, b) = without_moment(2, |r| wendland_c2(r, LENGTH), 2.0 * LENGTH);
         let sharp = Marginal::of(|r| (a - b * r * r) * wendland_c2(r, LENGTH), 2.0 * LENGTH);
         near(moment(&sharp, 0), 1.0, 1e-4);
         near(moment(&sharp, 2) / moment(&wendland(), 2), 0.0, 1e-4);

@@ -81,6 +81,11 @@ impl Sharpening {
     pub fn value(&self, q: f64) -> f64 {
         WendlandC2.value(q) * (self.a - self.b * q * q)
     }
+
+    /// h³ ∫ W*² dV [-].
+    pub fn square(&self) -> f64 {
+        integrate(|q| 4.0 * PI * q * q * self.value(q) * self.value(q))
+    }
 }
 
 /// ∫₀² f(q) dq by Simpson's rule, to 1e-10 for the kernels here.

@@ -374,6 +374,11 @@ impl FluidParticles {
 
     /// Force of the floor on the fluid [N], from the pairs of wall and fluid alone.
     pub fn wall_force(&self) -> Vec3 {
+        // Equal terms round alike, so a plain sum over the lattice of the wall would drift.
+        compensated((0..self.wall.len()).map(|w| self.force_of_wall_particle(w)))
+    }
+
+    fn force_of_wall_particle(&self, w: usize) -> Vec3 {
         let (count, h) = (self.len(), self.numerics.smoothing());
         let slope = |q| {
             if self.numerics.lucy {
@@ -382,22 +387,20 @@ impl FluidParticles {
                 WendlandC2.slope(q)
             }
         };
+        let state = &self.numerics.state;
+        let artificial = self.numerics.artificial * state.density * state.sound_speed;
+        let own = self.records[count + w].0;
         let mut force = Vec3::zeros();
-        for w in 0..self.wall.len() {
-            let own = self.records[count + w].0;
-            for &b in self.wall_rows.row(w) {
-                if self.origin(b as usize).0 >= count {
-                    continue;
-                }
-                let other = self.records[b as usize].0;
-                let r = Vec3::new(other[0] - own[0], other[1] - own[1], other[2] - own[2]);
-                let v = Vec3::new(other[3], other[4], other[5]);
-                let weight = own[6] * other[6] * slope(r.norm() / h) / h.powi(5);
-                let artificial =
-                    self.numerics.artificial * self.numerics.state.density * self.numerics.state.sound_speed;
-                let along = artificial * v.dot(&r) / r.norm() - own[7] - other[7];
-                force += weight * (2.0 * self.numerics.viscosity * v + along * r);
+        for &b in self.wall_rows.row(w) {
+            if self.origin(b as usize).0 >= count {
+                continue;
             }
+            let other = self.records[b as usize].0;
+            let r = Vec3::new(other[0] - own[0], other[1] - own[1], other[2] - own[2]);
+            let v = Vec3::new(other[3], other[4], other[5]);
+            let weight = own[6] * other[6] * slope(r.norm() / h) / h.powi(5);
+            let along = artificial * v.dot(&r) / r.norm() - own[7] - other[7];
+            force += weight * (2.0 * self.numerics.viscosity * v + along * r);
         }
         force
     }

@@ -231,7 +231,7 @@ fn rules<L: DragLaw>(
         two_way: settling
             .sphere
             .is_none_or(|sphere| sphere.coupling == Coupling::TwoWay),
-        own_flow: corrected.then(|| own_flow(settling, sph)),
+        own_flow: corrected.then(|| own_flow(settling, sph, fluid)),
         breathing: (scheme.start == Start::Exact).then(|| {
             Breathing::new(
                 fluid.numerics.state.sound_speed,
@@ -248,6 +248,27 @@ fn rules<L: DragLaw>(
     }
 }
 
+/// Length [m] of the continuous kernel that hands out and samples back as much as the exchange kernel does
+/// on the particles, averaged over a fall by one spacing.
+///
+/// At 1.2 spacings the kernel is a few particles wide and its echo Σ w²/V is 5 per cent off ∫W² dV, up or
+/// down as the grain falls on a column of particles or between four.
+fn resolved_length(settling: &Settling, sph: &SphFluid, fluid: &FluidParticles) -> f64 {
+    const PHASES: usize = 8;
+    let sharpening = exchange_sharpening(settling, sph);
+    let length = settling.exchange_length(sph);
+    let start = settling.positions()[0];
+    let echo = |phase: usize| {
+        let fallen = Vec3::new(0.0, 0.0, phase as f64 / PHASES as f64 * fluid.numerics.spacing);
+        let grain = [start - fallen];
+        let mut exchange = Exchange::new(length, sharpening, fluid, &grain);
+        exchange.refresh(fluid, &grain, settling.volume(), Vec3::zeros());
+        exchange.echo(0, fluid)
+    };
+    let mean = (0..PHASES).map(echo).sum::<f64>() / PHASES as f64;
+    (sharpening.square() / mean).cbrt()
+}
+
 /// A block has edges to keep sharp; a single grain has none, and a sharper kernel only strengthens
 /// the wake that must be taken out again.
 fn exchange_sharpening(settling: &Settling, sph: &SphFluid) -> Sharpening {
@@ -258,7 +279,7 @@ fn exchange_sharpening(settling: &Settling, sph: &SphFluid) -> Sharpening {
 }
 
 /// The wake an isolated grain of the scene leaves in the particle fluid.
-pub fn own_flow(settling: &Settling, sph: &SphFluid) -> SelfInducedFlow {
+fn own_flow(settling: &Settling, sph: &SphFluid, fluid: &FluidParticles) -> SelfInducedFlow {
     let medium = settling.medium();
     let sharpening = exchange_sharpening(settling, sph);
     let basin = Basin {
@@ -267,7 +288,7 @@ pub fn own_flow(settling: &Settling, sph: &SphFluid) -> SelfInducedFlow {
         density: medium.density,
         viscosity: medium.viscosity / medium.density,
         smoothing: 1.5 * settling.spacing(sph),
-        exchange: settling.exchange_length(sph),
+        exchange: resolved_length(settling, sph, fluid),
         sharpening,
     };
     SelfInducedFlow::new(&basin, settling.volume())
