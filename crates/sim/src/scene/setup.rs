@@ -204,13 +204,13 @@ impl<'a> Settling<'a> {
         let viscous = 0.125 * h * h / nu;
         let coupling = 0.2 * self.relaxation_time();
         [
-            (acoustic, "0.25 h/c"),
+            (acoustic, "0.4 h/c"),
             (viscous, "0.125 h²/ν"),
             (coupling, "0.2 m/(3πμd)"),
         ]
         .into_iter()
         .min_by(|a, b| a.0.total_cmp(&b.0))
-        .unwrap_or((acoustic, "0.25 h/c"))
+        .unwrap_or((acoustic, "0.4 h/c"))
     }
 
     /// Step [s] of the run and the number of steps.
