@@ -174,7 +174,7 @@ fn choices(settling: &Settling, sph: &SphFluid, description: &mut Description) {
     add(
         two_way,
         "reaction of the grains on the fluid, with the weights they sample it with",
-        "reaction on the fluid: one-way coupling",
+        "reaction on the fluid: one-way coupling, and with its weight split off the fluid is not stepped",
     );
     let corrected = settling
         .sphere

@@ -19,11 +19,20 @@ pub fn fluid<L: DragLaw>(simulation: &Simulation<L>) -> Vec<Table> {
             .zip(row)
             .for_each(|(sum, value)| *sum += value);
     }
-    let filled: Vec<(f64, [f64; 4])> = sums
-        .iter()
-        .enumerate()
-        .filter(|(_, sums)| sums[0] > 0.0)
-        .map(|(bin, sums)| ((bin as f64 + 0.5) * spacing, sums.map(|sum| sum / sums[0])))
+    // A field on particles means something over a kernel, not from one layer to the next: neighbouring
+    // bins are mixed 1 : 2 : 1, which leaves out the wavelength of two spacings that no gradient sees.
+    let mixed = |bin: usize| {
+        let mut row = sums[bin].map(|sum| 2.0 * sum);
+        for near in [bin.wrapping_sub(1), bin + 1] {
+            if let Some(other) = sums.get(near) {
+                row.iter_mut().zip(other).for_each(|(sum, value)| *sum += value);
+            }
+        }
+        row.map(|sum| sum / row[0])
+    };
+    let filled: Vec<(f64, [f64; 4])> = (0..bins)
+        .filter(|&bin| sums[bin][0] > 0.0)
+        .map(|bin| ((bin as f64 + 0.5) * spacing, mixed(bin)))
         .collect();
     let table = |name, column, unit, field: usize| Table {
         name,

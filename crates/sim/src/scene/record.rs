@@ -146,7 +146,9 @@ impl Recorder {
             push("terminal_velocity", "m/s", mean);
             push("terminal_velocity_drift", "m/s", drift);
         }
-        push("momentum_error", "1", self.momentum_error);
+        if simulation.rules.two_way {
+            push("momentum_error", "1", self.momentum_error);
+        }
         push("spurious_velocity", "m/s", self.spurious);
         push("overlap", "1", simulation.report.overlap);
         if self.isolated {
