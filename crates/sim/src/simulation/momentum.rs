@@ -1,13 +1,10 @@
 //! The exchange of momentum between grains and fluid over one step.
 
-use super::{GrainPorosity, Simulation, SlipRule};
+use super::{GrainPorosity, POROSITY_FLOOR, Simulation, SlipRule};
 use crate::coupling::Field;
 use crate::drag::DragLaw;
 use crate::integrator::ExactDrag;
 use crate::math::Vec3;
-
-/// Porosity below which the drag law is not asked.
-const POROSITY_FLOOR: f64 = 0.3;
 
 /// What the fluid does to one grain over a step: drag β (U − v) and a force that does not depend on v.
 #[derive(Clone, Copy, Debug)]
