@@ -19,6 +19,8 @@ pub struct Entry {
     pub style: Style,
     pub markers: bool,
     pub line: bool,
+    /// Markers are outlines.
+    pub open: bool,
 }
 
 /// A canvas with axes; figures draw on it in displayed units.
@@ -28,6 +30,8 @@ pub struct Panel {
     pub y: Axis,
     /// The area between the axes.
     pub plot: Area,
+    /// What the entries of the legend are values of: written above them.
+    pub heading: Option<String>,
     below: i32,
 }
 
@@ -53,11 +57,43 @@ impl Panel {
             x,
             y,
             plot,
+            heading: None,
             below: 0,
         };
         panel.horizontal_axis();
         panel.vertical_axis();
         panel
+    }
+
+    /// A smaller pair of axes on top of this one: what it covers is blank, titles are those around it.
+    pub fn inset(&mut self, plot: Area, x: Scale, y: Scale, fill: impl FnOnce(&mut Panel)) {
+        let untitled = |scale: Scale| Axis {
+            title: String::new(),
+            scale,
+        };
+        let widest = y.ticks().iter().filter_map(|tick| tick.label.as_deref());
+        let widest = widest
+            .map(|label| theme::text_width(label, theme::SMALL_TEXT))
+            .max();
+        let mut canvas = std::mem::take(&mut self.canvas);
+        canvas.blank(Area {
+            left: plot.left - theme::TICK - theme::GAP * 3 / 2 - widest.unwrap_or(0),
+            top: plot.top - theme::SMALL_TEXT / 2 - theme::GAP,
+            right: plot.right + theme::GAP * 2,
+            bottom: plot.bottom + theme::TICK + theme::GAP + theme::SMALL_TEXT * 3 / 2,
+        });
+        let mut inner = Panel {
+            canvas,
+            x: untitled(x),
+            y: untitled(y),
+            plot,
+            heading: None,
+            below: 0,
+        };
+        inner.horizontal_axis();
+        inner.vertical_axis();
+        fill(&mut inner);
+        self.canvas = inner.canvas;
     }
 
     /// Place of a pair of displayed numbers.
@@ -108,6 +144,9 @@ impl Panel {
                 occupied = area.right + theme::GAP;
                 self.canvas.text(text);
             }
+        }
+        if self.x.title.is_empty() {
+            return;
         }
         let middle = label_height + theme::SMALL_TEXT / 2 + theme::GAP + theme::TEXT / 2;
         let title = Text::new(
@@ -160,6 +199,9 @@ impl Panel {
         let stroke = Stroke::solid(theme::INK, theme::AXIS_STROKE);
         self.canvas
             .path(&[(left, top), (left, bottom), (right, bottom)], stroke);
+        if self.y.title.is_empty() {
+            return;
+        }
         let at = (theme::BORDER + theme::TEXT * 6 / 10, (top + bottom) / 2);
         let mut title = Text::new(&self.y.title, at, theme::TEXT, Anchor::Middle);
         title.turned = true;
@@ -202,9 +244,9 @@ impl Panel {
         }
     }
 
-    /// Puts a label beside a marker, where it covers nothing.
-    pub fn label_beside(&mut self, at: Position, label: &str, colour: theme::Colour) {
-        let (near, far) = (theme::MARKER + 70, theme::MARKER + 190);
+    /// Puts a label beside a marker that reaches `half` around its place, where it covers nothing.
+    pub fn label_beside(&mut self, at: Position, half: i32, label: &str, colour: theme::Colour) {
+        let (near, far) = (half + 50, half + 170);
         let places = [
             ((near, -far / 2), Anchor::Start),
             ((-near, -far / 2), Anchor::End),
@@ -251,8 +293,34 @@ impl Panel {
 
     /// Entries row by row, in as many columns as fit. Gives back the lower edge.
     fn legend(&mut self, legend: &[Entry]) -> i32 {
+        let mut lower = self.below;
         if legend.is_empty() {
-            return self.below;
+            return lower;
+        }
+        if let Some(heading) = self.heading.take() {
+            let at = (self.plot.left, lower + theme::GAP + theme::LEGEND_ROW / 2);
+            self.canvas
+                .text(Text::new(heading, at, theme::TEXT, Anchor::Start));
+            lower += theme::LEGEND_ROW;
+        }
+        // What is no run stands in a row of its own, unless there is room for all in one.
+        let room = theme::WIDTH - theme::BORDER - self.plot.left;
+        let (runs, others): (Vec<&Entry>, Vec<&Entry>) = legend.iter().partition(|entry| entry.markers);
+        let whole: Vec<&Entry> = legend.iter().collect();
+        let blocks = if columns(&whole, room).len() == legend.len() {
+            vec![whole]
+        } else {
+            vec![runs, others]
+        };
+        for block in blocks {
+            lower = self.legend_block(&block, lower);
+        }
+        lower + theme::GAP
+    }
+
+    fn legend_block(&mut self, legend: &[&Entry], upper: i32) -> i32 {
+        if legend.is_empty() {
+            return upper;
         }
         let widths = columns(legend, theme::WIDTH - theme::BORDER - self.plot.left);
         let whole: i32 = widths.iter().sum();
@@ -265,11 +333,11 @@ impl Panel {
         for (index, entry) in legend.iter().enumerate() {
             let (row, column) = (index / widths.len(), index % widths.len());
             let x = left + widths[..column].iter().sum::<i32>();
-            let y = self.below + theme::GAP + row as i32 * theme::LEGEND_ROW + theme::LEGEND_ROW / 2;
+            let y = upper + theme::GAP + row as i32 * theme::LEGEND_ROW + theme::LEGEND_ROW / 2;
             self.legend_entry(entry, (x, y));
         }
         let rows = legend.len().div_ceil(widths.len()) as i32;
-        self.below + theme::GAP + rows * theme::LEGEND_ROW
+        upper + rows * theme::LEGEND_ROW
     }
 
     fn legend_entry(&mut self, entry: &Entry, (x, y): Position) {
@@ -280,21 +348,34 @@ impl Panel {
             };
             self.canvas.line((x, y), (x + theme::SAMPLE, y), stroke);
         }
+        let sample = sample_width(entry);
         if entry.markers {
-            let middle = (x + theme::SAMPLE / 2, y);
-            self.canvas
-                .marker(entry.style.marker, middle, entry.style.colour, 1.0);
+            let middle = (x + sample / 2, y);
+            let Style { marker, colour, .. } = entry.style;
+            match entry.open {
+                true => self.canvas.open_marker(marker, middle, colour),
+                false => self.canvas.marker(marker, middle, colour, 1.0),
+            }
         }
-        let at = (x + theme::SAMPLE + theme::GAP, y);
+        let at = (x + sample + theme::GAP, y);
         self.canvas
             .text(Text::new(&entry.label, at, theme::TEXT, Anchor::Start));
     }
 }
 
+/// A line needs more room than a marker alone.
+fn sample_width(entry: &Entry) -> i32 {
+    if entry.line {
+        theme::SAMPLE
+    } else {
+        theme::MARKER * 3
+    }
+}
+
 /// Widths of the most columns that fit into a legend.
-fn columns(legend: &[Entry], room: i32) -> Vec<i32> {
-    let width = |entry: &Entry| {
-        theme::SAMPLE + theme::GAP + theme::text_width(&entry.label, theme::TEXT) + 3 * theme::GAP
+fn columns(legend: &[&Entry], room: i32) -> Vec<i32> {
+    let width = |entry: &&Entry| {
+        sample_width(entry) + theme::GAP + theme::text_width(&entry.label, theme::TEXT) + 3 * theme::GAP
     };
     let widths = |columns: usize| -> Vec<i32> {
         let column = |column| {

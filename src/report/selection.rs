@@ -9,6 +9,8 @@ use crate::study::model::{AxisValue, Selection, Study};
 pub struct Group<'a> {
     /// Empty when nothing groups them.
     pub label: String,
+    /// The value alone, for a legend whose heading names the parameter.
+    pub value: String,
     pub runs: Vec<&'a Run>,
 }
 
@@ -24,6 +26,7 @@ pub fn grouped<'a>(study: &Study, runs: &[&'a Run], by: Option<&str>) -> Vec<Gro
     let Some(name) = by else {
         return vec![Group {
             label: String::new(),
+            value: String::new(),
             runs: runs.to_vec(),
         }];
     };
@@ -37,14 +40,15 @@ pub fn grouped<'a>(study: &Study, runs: &[&'a Run], by: Option<&str>) -> Vec<Gro
         match found {
             Some((_, group)) => group.runs.push(run),
             None => {
-                let label = match &value {
-                    Some(value) => named(study, name, value),
-                    None => format!("without {}", format::words(name)),
+                let (label, alone) = match &value {
+                    Some(value) => (named(study, name, value), shown(study, name, value)),
+                    None => (format!("without {}", format::words(name)), "none".to_owned()),
                 };
                 groups.push((
                     value,
                     Group {
                         label,
+                        value: alone,
                         runs: vec![run],
                     },
                 ));
@@ -54,8 +58,16 @@ pub fn grouped<'a>(study: &Study, runs: &[&'a Run], by: Option<&str>) -> Vec<Gro
     groups.into_iter().map(|(_, group)| group).collect()
 }
 
-/// `width 4.2 mm`; a scene goes by its name alone.
+/// The parameter that a legend of groups names once, above the values; a scene needs no name.
+pub fn heading(by: &str) -> Option<String> {
+    (by != "scene").then(|| format::title_words(by))
+}
+
+/// `width 4.2 mm`, `spacing 2 d` in grain diameters; a scene goes by its name alone.
 pub fn named(study: &Study, name: &str, value: &AxisValue) -> String {
+    if let (Some(length), AxisValue::Number(number)) = (name.strip_suffix("_over_diameter"), value) {
+        return format!("{} {} d", format::words(length), format::number(*number));
+    }
     if name == "scene" {
         return shown(study, name, value);
     }

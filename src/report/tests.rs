@@ -207,7 +207,8 @@ fn convergence(sweep: &[Resolved]) -> Convergence {
     Convergence {
         order: Some(order),
         index: Some(0.4 * first.error),
-        honesty: "monotone, asymptotic".into(),
+        no_order: None,
+        no_index: None,
     }
 }
 
@@ -351,8 +352,8 @@ fn the_page_says_what_held_and_where_it_comes_from() {
 fn the_failed_point_enters_no_figure() {
     let (study, runs) = (study(), with_a_failure());
     let plate = figure::draw(&study, &runs, &study.figures[1], &NUMBERS).unwrap();
-    assert!(!plate.table.csv().contains("spacing / diameter 6"));
-    assert!(plate.table.csv().contains("spacing / diameter 4"));
+    assert!(!plate.table.csv().contains("spacing 6 d"));
+    assert!(plate.table.csv().contains("spacing 4 d"));
     assert_eq!(plate.notes.last().unwrap(), "Left out: 1 failed.");
 }
 

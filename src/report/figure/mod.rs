@@ -183,6 +183,14 @@ impl Material<'_> {
         }
     }
 
+    /// A parameter's value, for a legend that names the parameter once.
+    fn value(&self, run: &Run, name: &str) -> String {
+        let value = run.parameter(name);
+        value.map_or("none".to_owned(), |value| {
+            selection::shown(self.study, name, &value)
+        })
+    }
+
     /// What tells the runs of one group apart, for labels.
     fn distinction(&self, run: &Run, names: &[String]) -> String {
         let parts: Vec<String> = names
@@ -194,6 +202,21 @@ impl Material<'_> {
             .collect();
         parts.join(", ")
     }
+}
+
+/// `force balance, 4.912 mm/s: Raso (2014), eq. 4.4`: a reference for a caption, with its value where
+/// there is a single one.
+pub(super) fn cited(against: &str, values: &[f64], unit: &str, sources: Vec<String>) -> String {
+    let single = values
+        .split_first()
+        .filter(|(first, others)| others.iter().all(|other| other == *first));
+    let value = single.map(|(value, _)| format!(", {}", format::quantity(*value, unit)));
+    let sources = distinct(sources);
+    let sources = match sources.is_empty() {
+        true => String::new(),
+        false => format!(": {}", sources.join("; ")),
+    };
+    format!("{}{}{sources}", format::words(against), value.unwrap_or_default())
 }
 
 /// Sorted, without repetition: sources for a caption.

@@ -30,9 +30,10 @@ pub fn draw(material: &Material, of: &str, group: Option<&str>) -> Result<Plate,
         &height_unit,
         lines::largest(drawn.iter().flat_map(|line| &line.y)),
     );
+    let called = format::words(along_name.strip_suffix("_profile").unwrap_or(&along_name));
     let mut panel = Panel::new(
         Axis {
-            title: format!("{}{}", format::words(&along_name), along.in_brackets()),
+            title: format!("{called}{}", along.in_brackets()),
             scale: Scale::linear(
                 drawn
                     .iter()
@@ -48,14 +49,11 @@ pub fn draw(material: &Material, of: &str, group: Option<&str>) -> Result<Plate,
             ),
         },
     );
+    panel.heading = looks.heading;
     for line in &drawn {
         lines::draw(&mut panel, line, (along.factor, height.factor));
     }
-    let title = material.title(format!(
-        "{} over {}",
-        format::words(&along_name),
-        format::words(&height_name)
-    ));
+    let title = material.title(format!("{called} over {}", format::words(&height_name)));
     let description = format!("{} profiles, height upwards.", drawn.len());
     let drawing = panel.finish(&looks.legend, &material.id(), &title, &description)?;
     let heads = [
