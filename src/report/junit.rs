@@ -3,7 +3,7 @@
 
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
-use super::{ReportError, format, selection, table};
+use super::{ReportError, selection, table, told};
 use crate::judge::model::{Outcome, Verdict};
 use crate::store::model::{Run, Status};
 use crate::study::model::Study;
@@ -30,16 +30,8 @@ pub fn write(study: &Study, runs: &[Run], verdicts: &[Verdict]) -> Result<String
 
 fn status(verdict: &Verdict) -> TestCaseStatus {
     let message = || {
-        let error = verdict
-            .error
-            .map(|error| format!("error {}, ", format::percent(error)));
         let reason = verdict.reason.as_ref().map(|reason| format!(": {reason}"));
-        format!(
-            "{}admitted {}{}",
-            error.unwrap_or_default(),
-            verdict.band,
-            reason.unwrap_or_default()
-        )
+        format!("admitted {}{}", told::band(verdict), reason.unwrap_or_default())
     };
     let mut status = match (&verdict.informative, verdict.verdict) {
         (_, Outcome::Holds) => return TestCaseStatus::success(),
@@ -50,6 +42,19 @@ fn status(verdict: &Verdict) -> TestCaseStatus {
         Some(why) => format!("informative ({why}): {}", message()),
         None => message(),
     });
+    status.set_type(match verdict.verdict {
+        Outcome::Fails => "expectation",
+        _ => "not decidable",
+    });
+    let off: Vec<&str> = verdict
+        .points
+        .iter()
+        .filter(|point| point.holds == Some(false))
+        .map(|point| point.label.as_str())
+        .collect();
+    if !off.is_empty() {
+        status.set_description(format!("points that fail:\n{}", off.join("\n")));
+    }
     status
 }
 
@@ -59,6 +64,7 @@ fn run_status(run: &Run) -> TestCaseStatus {
     }
     let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
     let reason = run.reason.as_deref().unwrap_or("no reason is known");
+    status.set_type(table::status_word(run.status));
     status.set_message(format!("{}: {reason}", table::status_word(run.status)));
     status
 }

@@ -104,7 +104,16 @@ pub fn label(study: &Study, run: &Run) -> String {
     if study.scenes.len() > 1 {
         parts.push(format::words(&run.scene));
     }
-    parts.extend(run.axes.iter().map(|(name, value)| named(study, name, value)));
+    let mut kept: Vec<&str> = Vec::new();
+    for (name, value) in &run.axes {
+        if !kept
+            .iter()
+            .any(|earlier| carries(study, &run.scene, earlier, name))
+        {
+            parts.push(named(study, name, value));
+            kept.push(name);
+        }
+    }
     if study.seeds.len() > 1 {
         parts.push(format!("seed {}", run.seed));
     }
@@ -113,6 +122,28 @@ pub fn label(study: &Study, run: &Run) -> String {
     } else {
         parts.join(", ")
     }
+}
+
+/// Whether an axis moves along with an earlier one, so that naming the earlier one says all: to each
+/// of several values of `earlier` belongs one of `axis`.
+fn carries(study: &Study, scene: &str, earlier: &str, axis: &str) -> bool {
+    let value = |axes: &[(String, AxisValue)], name: &str| {
+        axes.iter()
+            .find(|(other, _)| other == name)
+            .map(|(_, value)| value.clone())
+    };
+    let mut pairs: Vec<(AxisValue, AxisValue)> = Vec::new();
+    for point in study.plan.points.iter().filter(|point| point.scene == scene) {
+        let (Some(key), Some(found)) = (value(&point.axes, earlier), value(&point.axes, axis)) else {
+            return false;
+        };
+        match pairs.iter().find(|(known, _)| same(known, &key)) {
+            Some((_, known)) if !same(known, &found) => return false,
+            Some(_) => {}
+            None => pairs.push((key, found)),
+        }
+    }
+    pairs.len() > 1
 }
 
 /// `scene` and axes with more than one value among the runs, without those named.

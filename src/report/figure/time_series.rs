@@ -106,7 +106,7 @@ fn start_inset<'a, I: Iterator<Item = &'a Line>>(
     }
     let shown = all().flat_map(|line| line.x.iter().zip(&line.y));
     let shown = shown.filter(|(x, _)| **x * factors.0 <= window);
-    let up = Scale::linear(shown.map(|(_, y)| y * factors.1)).with_at_most(4);
+    let up = Scale::linear(shown.map(|(_, y)| y * factors.1)).with_at_most(6);
     let across = Scale::tight([0.0, window]).with_at_most(5);
     panel.inset(plot, across, up, |inner| {
         for line in all() {
