@@ -333,7 +333,7 @@ fn the_page_says_what_held_and_where_it_comes_from() {
         "2026-05-03 12:30 UTC",
         "velocity of grain 0 is not finite",
         "Raso (2014), figure 5.18",
-        "4.91</td>",
+        "4.910</td>",
         "3.87 %",
         "&lt; 2 %",
         "cargo study sweep",

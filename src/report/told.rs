@@ -113,7 +113,7 @@ mod tests {
     use super::*;
 
     fn verdict(error: Option<f64>, band: &str) -> Verdict {
-        let point = |label: &str, computed, holds| PointVerdict {
+        let point = |label: &str, computed, holds: bool| PointVerdict {
             id: String::new(),
             label: label.into(),
             expected: error.map(|_| 0.003_201),

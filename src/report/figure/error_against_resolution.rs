@@ -93,17 +93,19 @@ pub fn draw(
             }
         }
     }
-    let title = material.title(format!(
-        "error of {} over {}",
+    let suggested = format!(
+        "relative error of {} over {}",
         format::words(of),
-        format::words(over)
-    ));
+        format::title_words(over)
+    );
+    let title = material.title(&suggested);
     let description = format!("{} points in {} groups.", errors.len(), sweeps.len());
     panel.heading = group.and_then(selection::heading);
     let legend = legend(&sweeps, of, panel.heading.is_some());
     let drawing = panel.finish(&legend, &material.id(), &title, &description)?;
     let table = table(material, &sweeps, over, of);
-    Ok(material.plate(title, drawing, notes(material, &sweeps, of, against, over), table))
+    let notes = material.captioned(&suggested, notes(material, &sweeps, of, against, over));
+    Ok(material.plate(title, drawing, notes, table))
 }
 
 fn sweeps<'a>(

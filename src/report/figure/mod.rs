@@ -163,11 +163,28 @@ impl Material<'_> {
     }
 
     /// The title given in the study, or the one the kind suggests.
-    fn title(&self, suggested: String) -> String {
-        self.figure
-            .title
-            .clone()
-            .unwrap_or_else(|| format::sentence(&suggested))
+    fn title(&self, suggested: &str) -> String {
+        let scenes: Vec<String> = self
+            .figure
+            .selection
+            .scenes
+            .iter()
+            .map(|scene| format::words(scene))
+            .collect();
+        let of = match scenes.is_empty() {
+            true => String::new(),
+            false => format!(": {}", scenes.join(", ")),
+        };
+        let given = self.figure.title.clone();
+        given.unwrap_or_else(|| format::sentence(suggested) + &of)
+    }
+
+    /// Notes for the caption, led by what is plotted where the study's title does not say it.
+    fn captioned(&self, suggested: &str, mut notes: Vec<String>) -> Vec<String> {
+        if self.figure.title.is_some() {
+            notes.insert(0, format!("{}.", format::sentence(suggested)));
+        }
+        notes
     }
 
     /// The finished figure with its surroundings.

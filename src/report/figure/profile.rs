@@ -53,7 +53,9 @@ pub fn draw(material: &Material, of: &str, group: Option<&str>) -> Result<Plate,
     for line in &drawn {
         lines::draw(&mut panel, line, (along.factor, height.factor));
     }
-    let title = material.title(format!("{called} over {}", format::words(&height_name)));
+    let suggested = format!("{called} over {}", format::words(&height_name));
+    let title = material.title(&suggested);
+    let notes = material.captioned(&suggested, looks.note.into_iter().collect());
     let description = format!("{} profiles, height upwards.", drawn.len());
     let drawing = panel.finish(&looks.legend, &material.id(), &title, &description)?;
     let heads = [
@@ -61,7 +63,7 @@ pub fn draw(material: &Material, of: &str, group: Option<&str>) -> Result<Plate,
         format!("{along_name} [{along_unit}]"),
     ];
     let table = table(material, of, &["run", &heads[0], &heads[1]])?;
-    Ok(material.plate(title, drawing, looks.note.into_iter().collect(), table))
+    Ok(material.plate(title, drawing, notes, table))
 }
 
 /// Height and quantity: `of` names a profile table (its second column is drawn) or a column of one.

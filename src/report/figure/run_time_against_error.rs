@@ -117,7 +117,8 @@ pub fn draw(material: &Material, of: &str, against: &str, group: Option<&str>) -
             open: false,
         });
     }
-    let title = material.title(format!("run time against error of {}", format::words(of)));
+    let suggested = format!("run time against relative error of {}", format::words(of));
+    let title = material.title(&suggested);
     let description = format!(
         "{} points, {} of them on the Pareto front.",
         priced.len(),
@@ -125,12 +126,8 @@ pub fn draw(material: &Material, of: &str, against: &str, group: Option<&str>) -
     );
     let drawing = panel.finish(&legend, &material.id(), &title, &description)?;
     let table = table(material, &priced, &front, of);
-    Ok(material.plate(
-        title,
-        drawing,
-        notes(material, &priced, against, resolution.as_deref()),
-        table,
-    ))
+    let notes = notes(material, &priced, against, resolution.as_deref());
+    Ok(material.plate(title, drawing, material.captioned(&suggested, notes), table))
 }
 
 /// Indices on the front of each scene, from the smallest error upwards. Scenes are different problems:

@@ -63,11 +63,12 @@ pub fn draw(
             time.label
         ));
     }
-    let title = material.title(format!("{quantity} over time"));
+    let suggested = format!("{quantity} over time");
+    let title = material.title(&suggested);
     let description = format!("{} lines of {quantity} over time.", drawn.len());
     let drawing = panel.finish(&legend, &material.id(), &title, &description)?;
     let table = table(material, of, against, &unit)?;
-    Ok(material.plate(title, drawing, notes, table))
+    Ok(material.plate(title, drawing, material.captioned(&suggested, notes), table))
 }
 
 /// Enlarges the start where it takes little of the whole time and the curves leave room below.
