@@ -11,7 +11,10 @@ use crate::study::model::Study;
 pub fn write(study: &Study, runs: &[Run], verdicts: &[Verdict]) -> Result<String, ReportError> {
     let mut expectations = TestSuite::new(format!("{}: expectations", study.name));
     expectations.add_test_cases(verdicts.iter().map(|verdict| {
-        let mut case = TestCase::new(format!("{}: {}", verdict.id, verdict.statement), status(verdict));
+        let mut case = TestCase::new(
+            format!("{}: {}", verdict.id, verdict.statement.replace('`', "")),
+            status(verdict),
+        );
         case.set_classname(study.name.clone());
         case
     }));
@@ -46,11 +49,14 @@ fn status(verdict: &Verdict) -> TestCaseStatus {
         Outcome::Fails => "expectation",
         _ => "not decidable",
     });
-    let off: Vec<&str> = verdict
+    let off: Vec<String> = verdict
         .points
         .iter()
         .filter(|point| point.holds == Some(false))
-        .map(|point| point.label.as_str())
+        .map(|point| match told::found_at(point, &verdict.unit) {
+            Some(found) => format!("{}: {found}", point.label),
+            None => point.label.clone(),
+        })
         .collect();
     if !off.is_empty() {
         status.set_description(format!("points that fail:\n{}", off.join("\n")));

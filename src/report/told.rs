@@ -40,8 +40,17 @@ pub fn deciding(verdict: &Verdict) -> Option<&PointVerdict> {
 
 /// `7.26 %, 2.968 mm/s instead of 3.201 mm/s`, or the value alone where there is no reference.
 pub fn found(verdict: &Verdict) -> Option<String> {
-    let value = |value: Option<f64>| value.map(|value| format::quantity(value, &verdict.unit));
-    match (verdict.error, value(verdict.computed), value(verdict.expected)) {
+    numbers(verdict.error, verdict.computed, verdict.expected, &verdict.unit)
+}
+
+/// The same of one point.
+pub fn found_at(point: &PointVerdict, unit: &str) -> Option<String> {
+    numbers(point.error, point.computed, point.expected, unit)
+}
+
+fn numbers(error: Option<f64>, computed: Option<f64>, expected: Option<f64>, unit: &str) -> Option<String> {
+    let value = |value: Option<f64>| value.map(|value| format::quantity(value, unit));
+    match (error, value(computed), value(expected)) {
         (Some(error), Some(computed), Some(expected)) => Some(format!(
             "{}, {computed} instead of {expected}",
             format::percent_found(error)
