@@ -357,6 +357,58 @@ fn the_failed_point_enters_no_figure() {
     assert_eq!(plate.notes.last().unwrap(), "Left out: 1 failed.");
 }
 
+fn notes_of(id: &str) -> String {
+    let plates = plates();
+    let plate = plates.iter().find(|plate| plate.id == id).unwrap();
+    plate.notes.join(" ")
+}
+
+#[test]
+fn a_fast_start_is_enlarged_where_there_is_room() {
+    assert!(notes_of("start-up").contains("Inset: the first 10 ms."));
+    // Slower scenes lie where the inset would be.
+    assert!(!notes_of("velocities").contains("Inset"));
+}
+
+#[test]
+fn each_scene_has_a_front_of_its_own() {
+    let plates = plates();
+    let cost = plates.iter().find(|plate| plate.id == "cost").unwrap();
+    // Within a scene a finer spacing is always dearer and better, so that no point is beaten.
+    assert_eq!(cost.table.csv().matches(",yes\n").count(), 15);
+}
+
+#[test]
+fn what_a_sweep_cannot_show_is_said_with_the_reason() {
+    let study = study();
+    let mut runs = runs();
+    for (run, error) in runs[5..10].iter_mut().zip([-0.01, 0.02, -0.005, 0.01, -0.01]) {
+        run.settings = serde_json::json!({"rehearsal": {
+            "limit": 2.0, "time_constant": 0.1, "duration": 1.0, "samples": 20, "scale": 1.0,
+            "order": 2.0, "error": 0.0, "delay": 0.0, "ending": "completes"
+        }});
+        run.scalars[0].value = 2.0 * (1.0 + error);
+    }
+    let kind = FigureKind::ErrorAgainstResolution {
+        of: "terminal_velocity".into(),
+        against: "known_limit".into(),
+        over: "spacing_over_diameter".into(),
+        group: None,
+    };
+    let figure = only("block_dilute", drawn("signs", kind));
+    let plate = figure::draw(&study, &runs, &figure, &Numbers::JUDGED).unwrap();
+    let notes = plate.notes.join(" ");
+    for told in [
+        "known limit, 2.000 m/s",
+        "open ones: below it",
+        "No observed order, because the error changes its sign along the sweep",
+        "no grid convergence index, because the values rise and fall along the sweep",
+    ] {
+        assert!(notes.contains(told), "{told}: {notes}");
+    }
+    assert!(!plate.svg.contains("order"));
+}
+
 #[test]
 fn an_identifier_cannot_leave_the_folder() {
     let mut study = study();
