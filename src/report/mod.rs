@@ -12,6 +12,7 @@ mod facts;
 mod figure;
 pub mod format;
 mod junit;
+mod legend;
 mod mark;
 mod numbers;
 mod page;

@@ -33,6 +33,23 @@ pub struct Convergence {
     pub no_index: Option<String>,
 }
 
+impl Convergence {
+    /// What is not shown of a sweep, and why.
+    pub fn doubts(&self) -> Option<String> {
+        match (&self.no_order, &self.no_index) {
+            (None, None) => None,
+            (Some(why), None) => Some(format!("no observed order, because {why}")),
+            (None, Some(why)) => Some(format!("no grid convergence index, because {why}")),
+            (Some(order), Some(index)) if order == index => Some(format!(
+                "no observed order and no grid convergence index, because {order}"
+            )),
+            (Some(order), Some(index)) => Some(format!(
+                "no observed order, because {order}; no grid convergence index, because {index}"
+            )),
+        }
+    }
+}
+
 /// A reference curve, one value per abscissa, SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {

@@ -3,8 +3,9 @@
 
 use super::super::axis::Scale;
 use super::super::canvas::{Area, Position, Stroke};
+use super::super::legend::Entry;
 use super::super::numbers::{Convergence, PointError, Resolved};
-use super::super::panel::{Axis, Entry, Panel};
+use super::super::panel::{Axis, Panel};
 use super::super::theme::{self, Style};
 use super::slope::{self, middles};
 use super::{Cell, Material, Plate, Table, cited};
@@ -328,30 +329,16 @@ fn notes(material: &Material, sweeps: &[Sweep], of: &str, against: &str, over: &
     if sweeps.iter().any(|sweep| sweep.convergence.index.is_some()) {
         notes.push("Bars: grid convergence index of the finest point.".to_owned());
     }
-    notes.extend(sweeps.iter().filter_map(|sweep| doubts(sweep)));
+    for sweep in sweeps {
+        let Some(doubts) = sweep.convergence.doubts() else {
+            continue;
+        };
+        notes.push(match sweep.label.is_empty() {
+            true => format!("{}.", format::sentence(&doubts)),
+            false => format!("{}: {doubts}.", format::sentence(&sweep.label)),
+        });
+    }
     notes
-}
-
-/// What is not shown of a sweep, and why.
-fn doubts(sweep: &Sweep) -> Option<String> {
-    let Convergence {
-        no_order, no_index, ..
-    } = &sweep.convergence;
-    let told = match (no_order, no_index) {
-        (None, None) => return None,
-        (Some(why), None) => format!("no observed order, because {why}"),
-        (None, Some(why)) => format!("no grid convergence index, because {why}"),
-        (Some(order), Some(index)) if order == index => {
-            format!("no observed order and no grid convergence index, because {order}")
-        }
-        (Some(order), Some(index)) => {
-            format!("no observed order, because {order}; no grid convergence index, because {index}")
-        }
-    };
-    Some(match sweep.label.is_empty() {
-        true => format!("{}.", format::sentence(&told)),
-        false => format!("{}: {told}.", format::sentence(&sweep.label)),
-    })
 }
 
 fn table(material: &Material, sweeps: &[Sweep], over: &str, of: &str) -> Table {

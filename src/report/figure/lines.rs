@@ -1,7 +1,8 @@
 //! Curves of many runs on one pair of axes: shared by time series and profiles.
 
 use super::super::canvas::Stroke;
-use super::super::panel::{Entry, Panel};
+use super::super::legend::Entry;
+use super::super::panel::Panel;
 use super::super::theme::{self, Style};
 use super::Material;
 use crate::report::{format, selection};

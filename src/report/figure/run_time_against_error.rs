@@ -2,8 +2,9 @@
 
 use super::super::axis::Scale;
 use super::super::canvas::{Area, Position, Stroke};
+use super::super::legend::Entry;
 use super::super::numbers::{PointError, RECOMMENDED};
-use super::super::panel::{Axis, Entry, Panel};
+use super::super::panel::{Axis, Panel};
 use super::super::theme::{self, Style};
 use super::{Cell, Material, Plate, Table, cited};
 use crate::report::format::Unit;
