@@ -158,7 +158,8 @@ pub fn make_report(
     }
     let judged = judge(&study, &runs);
     let index = report::render(&study, &runs, &judged, &reporting.out.join(&study.name))?;
-    console.say(&verdicts::verdicts(&judged, &tally, &index, console.paint))?;
+    let told = report::told::told(&study, &runs, &judged);
+    console.say(&verdicts::verdicts(&told, &tally, &index, console.paint))?;
     Ok(tally.status().max(verdicts::amount_to(&judged, reporting.strict)))
 }
 

@@ -5,11 +5,12 @@ use std::path::Path;
 
 use super::actions::Tally;
 use super::console::Paint;
-use super::magnitude::{count, number};
+use super::magnitude::count;
 use super::status::Status;
 use crate::judge::model::{Outcome, Verdict};
+use crate::report::told;
 
-/// One line per verdict, its reason below, then the counts and the path of the report.
+/// One line per verdict (as told by the report), its reason below, then the counts and the path of the report.
 pub fn verdicts(verdicts: &[Verdict], tally: &Tally, index: &Path, paint: Paint) -> String {
     let mut text = String::new();
     for verdict in verdicts {
@@ -52,7 +53,7 @@ fn line(verdict: &Verdict, paint: Paint) -> String {
     };
     let mut text = format!("{mark}  {}: {}", verdict.id, verdict.statement);
     if let Some(found) = found(verdict) {
-        let _ = write!(text, "; {found}, band {}", verdict.band);
+        let _ = write!(text, "; {found}");
     }
     if !verdict.source.is_empty() {
         let _ = write!(text, "  {}", paint.dim(&format!("[{}]", verdict.source)));
@@ -64,21 +65,19 @@ fn line(verdict: &Verdict, paint: Paint) -> String {
     text
 }
 
-/// The number that was held against the band: the error where there is one.
+/// What was found, where it holds: `0.201 %, 9.167 mm/s instead of 9.185 mm/s at sphere, spacing 3 d`.
+/// The reason of a failure says it already.
 fn found(verdict: &Verdict) -> Option<String> {
-    let value = verdict.computed.map(|value| {
-        let unit = if matches!(verdict.unit.as_str(), "" | "1" | "-") {
-            ""
-        } else {
-            verdict.unit.as_str()
-        };
-        format!("{} {unit}", number(value)).trim_end().to_string()
-    });
-    match (verdict.error, value) {
-        (Some(error), Some(value)) => Some(format!("error {} at {value}", number(error))),
-        (Some(error), None) => Some(format!("error {}", number(error))),
-        (None, value) => value,
+    let found = told::found(verdict)?;
+    if verdict.verdict == Outcome::Fails && verdict.reason.as_ref().is_some_and(|why| why.contains(&found)) {
+        return None;
     }
+    let several = verdict.points.len() > 1;
+    let at = told::deciding(verdict).filter(|_| several);
+    Some(match at {
+        Some(point) => format!("at most {found} at {}", point.label),
+        None => format!("found {found}"),
+    })
 }
 
 #[cfg(test)]
@@ -140,10 +139,10 @@ mod tests {
             Path::new("reports/x/index.html"),
             Paint { on: false },
         );
-        let expected = "✓ holds  error-1: relative error of limit against known_limit < 2 %; error 0.01 at 1.01 m/s, \
-                        band < 0.02  [by construction]\n\
-                        ✗ fails  error-1: relative error of limit against known_limit < 2 %; error 0.01 at 1.01 m/s, \
-                        band < 0.02  [by construction]\n    too coarse\n\
+        let expected = "✓ holds  error-1: relative error of limit against known_limit < 2 %; found 1.00 %, 1.010 m/s \
+                        instead of 1.000 m/s  [by construction]\n\
+                        ✗ fails  error-1: relative error of limit against known_limit < 2 %; found 1.00 %, 1.010 m/s \
+                        instead of 1.000 m/s  [by construction]\n    too coarse\n\
                         2 expectations: 1 held, 1 failed, 0 not decidable · 3 points: 2 completed, 1 failed, \
                         0 missing\nreports/x/index.html\n";
         assert_eq!(text, expected);

@@ -130,14 +130,14 @@ impl Phrase {
                     " "
                 };
                 Phrase {
-                    statement: format!("{of}{link}{words}"),
+                    statement: format!("`{of}`{link}{words}"),
                     quantity: of.clone(),
                     band: words,
                 }
             }
             Check::Error { of, against, below } => Phrase {
                 statement: format!(
-                    "relative error of {of} against {against} < {}",
+                    "relative error of `{of}` against the reference `{against}` < {}",
                     words::percent(*below)
                 ),
                 quantity: of.clone(),
@@ -153,7 +153,7 @@ impl Phrase {
                 let (order, tolerance) = (words::significant(*is, 6), words::significant(*within, 6));
                 Phrase {
                     statement: format!(
-                        "order of the error of {of} against {against} over {over} is {order} ± {tolerance}"
+                        "order of the error of `{of}` against the reference `{against}` over `{over}` is {order} ± {tolerance}"
                     ),
                     quantity: format!("order of {of} over {over}"),
                     band: format!(
@@ -166,7 +166,7 @@ impl Phrase {
             Check::Monotone { of, over, rising } => {
                 let direction = if *rising { "rises" } else { "falls" };
                 Phrase {
-                    statement: format!("{of} {direction} with {over}"),
+                    statement: format!("`{of}` {direction} with `{over}`"),
                     quantity: of.clone(),
                     band: if *rising { "rising" } else { "falling" }.to_string(),
                 }

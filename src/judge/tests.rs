@@ -153,7 +153,7 @@ fn the_worst_point_decides_an_error() {
     assert_eq!(holding.expected, Some(LIMIT));
     assert_eq!(
         holding.statement,
-        "relative error of limit against known_limit < 1.7 %"
+        "relative error of `limit` against the reference `known_limit` < 1.7 %"
     );
     assert_eq!((holding.band.as_str(), holding.unit.as_str()), ("< 0.017", "1"));
     let failing = one(limit_below(0.01), &runs);

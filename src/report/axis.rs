@@ -36,22 +36,34 @@ impl Scale {
             logarithmic: false,
             low,
             high,
-            ticks: linear_ticks(low, high),
+            ticks: linear_ticks(low, high, TICKS),
         }
     }
 
-    /// Exactly from the smallest to the largest value: the time axis of a series.
+    /// Exactly from the smallest to the largest value: the time axis of a series. Begins at zero when
+    /// the smallest is near.
     pub fn tight(values: impl IntoIterator<Item = f64>) -> Scale {
         match range(values) {
-            Some((low, high)) if high > low => Scale {
-                logarithmic: false,
-                low,
-                high,
-                ticks: linear_ticks(low, high),
-            },
+            Some((low, high)) if high > low => {
+                let low = if low > 0.0 && low < 0.1 * high { 0.0 } else { low };
+                Scale {
+                    logarithmic: false,
+                    low,
+                    high,
+                    ticks: linear_ticks(low, high, TICKS),
+                }
+            }
             Some((low, _)) => Scale::linear([low]),
             None => Scale::linear([]),
         }
+    }
+
+    /// Fewer ticks, for a small linear axis.
+    pub fn with_at_most(mut self, count: u32) -> Scale {
+        if !self.logarithmic {
+            self.ticks = linear_ticks(self.low, self.high, count);
+        }
+        self
     }
 
     /// Covers positive values, with at least a factor of three between the ends.
@@ -112,9 +124,12 @@ fn range(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
         })
 }
 
-/// Steps of 1, 2 or 5 times a power of ten, about five of them.
-fn linear_ticks(low: f64, high: f64) -> Vec<Tick> {
-    let rough = (high - low) / 5.0;
+/// Steps of a linear axis: not more.
+const TICKS: u32 = 7;
+
+/// Steps of 1, 2 or 5 times a power of ten, at most so many.
+fn linear_ticks(low: f64, high: f64, count: u32) -> Vec<Tick> {
+    let rough = (high - low) / f64::from(count);
     let power = 10f64.powf(rough.log10().floor());
     let step = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * power);
     let step = step
@@ -143,8 +158,18 @@ fn linear_ticks(low: f64, high: f64) -> Vec<Tick> {
         .collect()
 }
 
-/// 1, 2, 5 within three decades, decades beyond; the other digits are minor ticks.
+/// 1, 2, 5 within three decades, decades beyond; the other digits are minor ticks. An axis so short
+/// that fewer than three labels would be left shows all digits.
 fn logarithmic_ticks(low: f64, high: f64) -> Vec<Tick> {
+    let ticks = ticks_of_digits(low, high, &[1, 2, 5]);
+    let labelled = ticks.iter().filter(|tick| tick.label.is_some()).count();
+    if labelled < 3 {
+        return ticks_of_digits(low, high, &[1, 2, 3, 4, 5, 6, 7, 8, 9]);
+    }
+    ticks
+}
+
+fn ticks_of_digits(low: f64, high: f64, labelled: &[i32]) -> Vec<Tick> {
     let decades = (high / low).log10();
     let every = (decades / 8.0).ceil().max(1.0) as i32;
     let mut ticks = Vec::new();
@@ -158,13 +183,11 @@ fn logarithmic_ticks(low: f64, high: f64) -> Vec<Tick> {
             if at < low || at > high {
                 continue;
             }
-            let labelled = match digit {
+            let is_labelled = match digit {
                 1 => exponent.rem_euclid(every) == 0,
-                2 | 5 => decades <= 3.0,
-                3 => decades <= 1.0,
-                _ => false,
+                digit => decades <= 3.0 && labelled.contains(&digit),
             };
-            let label = labelled.then(|| logarithmic_label(at, exponent, digit));
+            let label = is_labelled.then(|| logarithmic_label(at, exponent, digit));
             if every == 1 || digit == 1 {
                 ticks.push(Tick { at, label });
             }
@@ -197,7 +220,14 @@ mod tests {
 
     #[test]
     fn a_linear_axis_counts_in_ones_twos_and_fives() {
-        assert_eq!(labels(&Scale::tight([0.0, 62.0])), ["0", "20", "40", "60"]);
+        assert_eq!(
+            labels(&Scale::tight([0.0, 6.2])),
+            ["0", "1", "2", "3", "4", "5", "6"]
+        );
+        assert_eq!(
+            labels(&Scale::tight([0.0, 6.2]).with_at_most(4)),
+            ["0", "2", "4", "6"]
+        );
         assert_eq!(
             labels(&Scale::tight([-0.1, 0.1])),
             ["−0.10", "−0.05", "0.00", "0.05", "0.10"]
@@ -209,6 +239,11 @@ mod tests {
         let scale = Scale::logarithmic([0.12, 9.0]);
         assert_eq!(labels(&scale), ["0.1", "0.2", "0.5", "1", "2", "5", "10"]);
         assert!(scale.ticks().iter().any(|tick| tick.label.is_none()));
+    }
+
+    #[test]
+    fn a_short_logarithmic_axis_is_still_readable() {
+        assert!(labels(&Scale::logarithmic([0.4, 0.8])).len() >= 4);
     }
 
     #[test]

@@ -49,8 +49,28 @@ impl Canvas {
     }
 
     pub fn marker(&mut self, marker: Marker, at: Position, colour: Colour, opacity: f64) {
+        self.marker_of(marker, at, theme::MARKER, colour, opacity);
+    }
+
+    /// The outline of a marker.
+    pub fn open_marker(&mut self, marker: Marker, at: Position, colour: Colour) {
+        self.marker_of(marker, at, theme::MARKER * 11 / 10, colour, 1.0);
+        self.marker_of(marker, at, theme::MARKER * 6 / 10, theme::PAPER, 1.0);
+    }
+
+    /// Hides what lies below an area.
+    pub fn blank(&mut self, area: Area) {
+        let corners = vec![
+            (area.left, area.top),
+            (area.right, area.top),
+            (area.right, area.bottom),
+            (area.left, area.bottom),
+        ];
+        self.marks.push(Mark::Polygon(corners, theme::PAPER, 1.0));
+    }
+
+    fn marker_of(&mut self, marker: Marker, at: Position, half: i32, colour: Colour, opacity: f64) {
         let (x, y) = at;
-        let half = theme::MARKER;
         let polygon = |corners: &[(i32, i32)]| {
             let corners = corners
                 .iter()

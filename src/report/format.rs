@@ -86,6 +86,24 @@ pub fn words(name: &str) -> String {
     name.replace("_over_", " / ")
         .replace('_', " ")
         .replace("stokes", "Stokes")
+        .replace("start up", "start-up")
+        .replace("self disturbance", "self-disturbance")
+}
+
+/// An SI value with a readable unit: `4.870 mm/s`.
+pub fn quantity(value: f64, unit: &str) -> String {
+    let unit = readable(unit, value);
+    format!("{} {}", four_digits(value * unit.factor), unit.label)
+        .trim_end()
+        .to_owned()
+}
+
+/// A quantity as the title of an axis.
+pub fn title_words(name: &str) -> String {
+    match name {
+        "spacing_over_diameter" => "particle spacing / grain diameter".to_owned(),
+        name => words(name),
+    }
 }
 
 /// First letter large.
@@ -96,8 +114,17 @@ pub fn sentence(text: &str) -> String {
     })
 }
 
-/// Four significant digits.
+/// At most four significant digits: settings and ticks.
 pub fn number(value: f64) -> String {
+    rounded(value, trimmed)
+}
+
+/// Four significant digits, zeros included: results, which stand below each other.
+pub fn four_digits(value: f64) -> String {
+    rounded(value, |digits| digits)
+}
+
+fn rounded(value: f64, shortened: fn(&str) -> &str) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
@@ -106,10 +133,14 @@ pub fn number(value: f64) -> String {
     }
     let exponent = value.abs().log10().floor() as i32;
     if (-4..6).contains(&exponent) {
-        return signed(trimmed(&format!("{value:.*}", (3 - exponent).max(0) as usize)));
+        return signed(shortened(&format!("{value:.*}", (3 - exponent).max(0) as usize)));
     }
     let mantissa = format!("{:.3}", value / 10f64.powi(exponent));
-    signed(&format!("{} × {}", trimmed(&mantissa), power_of_ten(exponent)))
+    let mantissa = shortened(&mantissa);
+    if mantissa == "1" {
+        return power_of_ten(exponent);
+    }
+    signed(&format!("{mantissa} × {}", power_of_ten(exponent)))
 }
 
 /// An exact, shortest number for tables that programs read.
@@ -122,28 +153,32 @@ pub fn exact(value: f64) -> String {
     }
 }
 
-/// A fraction in percent with three significant digits.
+/// A fraction in percent with at most three significant digits: bounds.
 pub fn percent(fraction: f64) -> String {
+    percentage(fraction, trimmed)
+}
+
+/// A fraction in percent with three significant digits, zeros included: errors found.
+pub fn percent_found(fraction: f64) -> String {
+    percentage(fraction, |digits| digits)
+}
+
+fn percentage(fraction: f64, shortened: fn(&str) -> &str) -> String {
     let value = fraction * 100.0;
     let size = value.abs();
     if !value.is_finite() {
         return "–".to_owned();
     }
-    if size != 0.0 && size < 1e-3 {
+    if size == 0.0 {
+        return "0 %".to_owned();
+    }
+    if size < 1e-3 {
         let exponent = fraction.abs().log10().floor() as i32;
         let mantissa = fraction / 10f64.powi(exponent);
         return signed(&format!("{mantissa:.1} × {}", power_of_ten(exponent)));
     }
-    let digits = if size >= 100.0 {
-        0
-    } else if size >= 10.0 {
-        1
-    } else if size >= 0.1 {
-        2
-    } else {
-        4
-    };
-    signed(&format!("{} %", trimmed(&format!("{value:.digits$}"))))
+    let digits = (2 - size.log10().floor() as i32).max(0) as usize;
+    signed(&format!("{} %", shortened(&format!("{value:.digits$}"))))
 }
 
 /// `10⁻³`.
@@ -255,7 +290,13 @@ mod tests {
         assert_eq!(number(-12.0), "−12");
         assert_eq!(number(2.5e-9), "2.5 × 10⁻⁹");
         assert_eq!(number(13_200.0), "13200");
+        assert_eq!(number(1e-12), "10⁻¹²");
         assert_eq!(percent(0.0123), "1.23 %");
+        assert_eq!(percent(0.01), "1 %");
+        assert_eq!(percent_found(0.002), "0.200 %");
+        assert_eq!(percent_found(0.000_777_25), "0.0777 %");
+        assert_eq!(quantity(0.004_870_1, "m/s"), "4.870 mm/s");
+        assert_eq!(quantity(0.109_2, "1"), "0.1092");
         assert_eq!(percent(0.0), "0 %");
         assert_eq!(percent(3.0e-13), "3.0 × 10⁻¹³");
         assert_eq!(count(1_234_567), "1\u{202f}234\u{202f}567");

@@ -3,7 +3,7 @@
 
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
-use super::{ReportError, format, selection, table};
+use super::{ReportError, selection, table, told};
 use crate::judge::model::{Outcome, Verdict};
 use crate::store::model::{Run, Status};
 use crate::study::model::Study;
@@ -11,7 +11,10 @@ use crate::study::model::Study;
 pub fn write(study: &Study, runs: &[Run], verdicts: &[Verdict]) -> Result<String, ReportError> {
     let mut expectations = TestSuite::new(format!("{}: expectations", study.name));
     expectations.add_test_cases(verdicts.iter().map(|verdict| {
-        let mut case = TestCase::new(format!("{}: {}", verdict.id, verdict.statement), status(verdict));
+        let mut case = TestCase::new(
+            format!("{}: {}", verdict.id, verdict.statement.replace('`', "")),
+            status(verdict),
+        );
         case.set_classname(study.name.clone());
         case
     }));
@@ -30,16 +33,8 @@ pub fn write(study: &Study, runs: &[Run], verdicts: &[Verdict]) -> Result<String
 
 fn status(verdict: &Verdict) -> TestCaseStatus {
     let message = || {
-        let error = verdict
-            .error
-            .map(|error| format!("error {}, ", format::percent(error)));
         let reason = verdict.reason.as_ref().map(|reason| format!(": {reason}"));
-        format!(
-            "{}admitted {}{}",
-            error.unwrap_or_default(),
-            verdict.band,
-            reason.unwrap_or_default()
-        )
+        format!("admitted {}{}", told::band(verdict), reason.unwrap_or_default())
     };
     let mut status = match (&verdict.informative, verdict.verdict) {
         (_, Outcome::Holds) => return TestCaseStatus::success(),
@@ -50,6 +45,22 @@ fn status(verdict: &Verdict) -> TestCaseStatus {
         Some(why) => format!("informative ({why}): {}", message()),
         None => message(),
     });
+    status.set_type(match verdict.verdict {
+        Outcome::Fails => "expectation",
+        _ => "not decidable",
+    });
+    let off: Vec<String> = verdict
+        .points
+        .iter()
+        .filter(|point| point.holds == Some(false))
+        .map(|point| match told::found_at(point, &verdict.unit) {
+            Some(found) => format!("{}: {found}", point.label),
+            None => point.label.clone(),
+        })
+        .collect();
+    if !off.is_empty() {
+        status.set_description(format!("points that fail:\n{}", off.join("\n")));
+    }
     status
 }
 
@@ -59,6 +70,7 @@ fn run_status(run: &Run) -> TestCaseStatus {
     }
     let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
     let reason = run.reason.as_deref().unwrap_or("no reason is known");
+    status.set_type(table::status_word(run.status));
     status.set_message(format!("{}: {reason}", table::status_word(run.status)));
     status
 }

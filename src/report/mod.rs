@@ -10,8 +10,9 @@ mod axis;
 mod canvas;
 mod facts;
 mod figure;
-mod format;
+pub mod format;
 mod junit;
+mod legend;
 mod mark;
 mod numbers;
 mod page;
@@ -21,6 +22,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 mod theme;
+pub mod told;
 mod verdict_row;
 
 use figure::Plate;
@@ -65,11 +67,12 @@ fn render_with(
     let effort = table::effort(&frame, &table::counters(runs))?;
     write(&out.join("runs.csv"), &table::csv(&mut frame)?)?;
     write(&out.join("verdicts.json"), &json(verdicts)?)?;
+    let told = told::told(study, runs, verdicts);
     write(
         &out.join("junit.xml"),
-        junit::write(study, runs, verdicts)?.as_bytes(),
+        junit::write(study, runs, &told)?.as_bytes(),
     )?;
-    let page = page::Page::new(study, runs, verdicts, &plates, &effort);
+    let page = page::Page::new(study, runs, &told, &plates, &effort);
     write(&out.join("report.md"), page.markdown()?.as_bytes())?;
     let index = out.join("index.html");
     write(&index, page.html()?.as_bytes())?;

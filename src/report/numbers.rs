@@ -27,8 +27,27 @@ pub struct Convergence {
     /// Grid convergence index of the finest point as a relative uncertainty; only where the sweep
     /// is monotone and close to asymptotic.
     pub index: Option<f64>,
-    /// In words: how far the sweep can be trusted.
-    pub honesty: String,
+    /// Why there is no order.
+    pub no_order: Option<String>,
+    /// Why there is no index.
+    pub no_index: Option<String>,
+}
+
+impl Convergence {
+    /// What is not shown of a sweep, and why.
+    pub fn doubts(&self) -> Option<String> {
+        match (&self.no_order, &self.no_index) {
+            (None, None) => None,
+            (Some(why), None) => Some(format!("no observed order, because {why}")),
+            (None, Some(why)) => Some(format!("no grid convergence index, because {why}")),
+            (Some(order), Some(index)) if order == index => Some(format!(
+                "no observed order and no grid convergence index, because {order}"
+            )),
+            (Some(order), Some(index)) => Some(format!(
+                "no observed order, because {order}; no grid convergence index, because {index}"
+            )),
+        }
+    }
 }
 
 /// A reference curve, one value per abscissa, SI units.
@@ -94,13 +113,36 @@ fn convergence(sweep: &[Resolved]) -> Convergence {
     let observed = observed_order(&sizes, &errors);
     let values: Option<Vec<f64>> = sweep.iter().map(|point| point.value).collect();
     let extrapolated = values.map(|values| extrapolate(&sizes, &values, observed.order));
+    let no_index = match &extrapolated {
+        Some(extrapolated) => doubt_of_values(extrapolated.honesty),
+        None => Some("a series has no single value"),
+    };
     let index = extrapolated
-        .filter(|extrapolated| extrapolated.honesty == Honesty::Monotone)
+        .filter(|_| no_index.is_none())
         .and_then(|extrapolated| extrapolated.indices.first().copied());
     Convergence {
         order: (observed.honesty == Honesty::Monotone).then_some(observed.order),
         index,
-        honesty: observed.honesty.words().to_owned(),
+        no_order: doubt_of_errors(observed.honesty).map(str::to_owned),
+        no_index: no_index.map(str::to_owned),
+    }
+}
+
+fn doubt_of_errors(honesty: Honesty) -> Option<&'static str> {
+    match honesty {
+        Honesty::Monotone => None,
+        Honesty::Oscillating => Some("the error changes its sign along the sweep"),
+        Honesty::NotAsymptotic => Some("the error does not fall at one steady order"),
+        Honesty::TooFew => Some("there are fewer than three resolutions"),
+    }
+}
+
+fn doubt_of_values(honesty: Honesty) -> Option<&'static str> {
+    match honesty {
+        Honesty::Monotone => None,
+        Honesty::Oscillating => Some("the values rise and fall along the sweep"),
+        Honesty::NotAsymptotic => Some("the values do not converge at one steady order"),
+        Honesty::TooFew => Some("there are fewer than three resolutions"),
     }
 }
 

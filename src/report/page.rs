@@ -38,6 +38,7 @@ pub struct Page {
 struct Overall {
     /// `holds`, `fails`, `open`: the style of the badge.
     kind: &'static str,
+    mark: &'static str,
     word: &'static str,
     sentence: String,
 }
@@ -94,7 +95,10 @@ impl Page {
             overall: overall(counts, exploratory),
             counts,
             facts: facts::of(runs),
-            verdicts: verdicts.iter().map(verdict_row::verdict_row).collect(),
+            verdicts: verdicts
+                .iter()
+                .map(|verdict| verdict_row::verdict_row(study, verdict))
+                .collect(),
             failures: failures(study, runs),
             figures: plates
                 .iter()
@@ -149,11 +153,29 @@ fn render(name: &str, template: &str, values: Value) -> Result<String, ReportErr
         .lstrip_blocks(true)
         .build();
     templates.set_syntax(syntax.map_err(failed)?);
+    templates.add_filter("code", code);
     templates.add_filter("cell", |text: String| text.replace('|', "\\|").replace('\n', " "));
     templates
         .add_template(name, template)
         .and_then(|()| templates.get_template(name)?.render(values))
         .map_err(failed)
+}
+
+/// Text with `names` in the type of code, safe in HTML.
+fn code(text: String) -> Value {
+    let mut markup = String::new();
+    for (index, part) in text.split('`').enumerate() {
+        let part = part
+            .replace('&', "&amp;")
+            .replace('<', "&lt;")
+            .replace('>', "&gt;")
+            .replace('"', "&quot;");
+        match index % 2 {
+            0 => markup.push_str(&part),
+            _ => markup.push_str(&format!("<code>{part}</code>")),
+        }
+    }
+    Value::from_safe_string(markup)
 }
 
 fn counts(study: &Study, runs: &[Run], verdicts: &[Verdict]) -> Counts {
@@ -199,6 +221,7 @@ fn overall(counts: Counts, exploratory: bool) -> Overall {
     } else if absent > 0 {
         return Overall {
             kind: "open",
+            mark: mark("open"),
             word: "Incomplete",
             sentence: format::sentence(&points) + ".",
         };
@@ -224,8 +247,18 @@ fn overall(counts: Counts, exploratory: bool) -> Overall {
     }
     Overall {
         kind,
+        mark: mark(kind),
         word,
         sentence: format::sentence(&sentence) + ".",
+    }
+}
+
+/// The symbol beside a verdict: colours alone are not enough.
+fn mark(kind: &str) -> &'static str {
+    match kind {
+        "holds" => "✓",
+        "fails" => "✗",
+        _ => "?",
     }
 }
 

@@ -3,22 +3,14 @@
 use super::ReportError;
 use super::axis::Scale;
 use super::canvas::{Anchor, Area, Canvas, Position, Stroke, Text};
-use super::theme::{self, Style};
+use super::legend::Entry;
+use super::theme;
 
 /// One axis with its title.
 #[derive(Clone, Debug)]
 pub struct Axis {
     pub title: String,
     pub scale: Scale,
-}
-
-/// A line of the legend.
-#[derive(Clone, Debug)]
-pub struct Entry {
-    pub label: String,
-    pub style: Style,
-    pub markers: bool,
-    pub line: bool,
 }
 
 /// A canvas with axes; figures draw on it in displayed units.
@@ -28,7 +20,10 @@ pub struct Panel {
     pub y: Axis,
     /// The area between the axes.
     pub plot: Area,
-    below: i32,
+    /// What the entries of the legend are values of: written above them.
+    pub heading: Option<String>,
+    /// Lower edge of the axis title: where the legend begins.
+    pub below: i32,
 }
 
 impl Panel {
@@ -53,11 +48,43 @@ impl Panel {
             x,
             y,
             plot,
+            heading: None,
             below: 0,
         };
         panel.horizontal_axis();
         panel.vertical_axis();
         panel
+    }
+
+    /// A smaller pair of axes on top of this one: what it covers is blank, titles are those around it.
+    pub fn inset(&mut self, plot: Area, x: Scale, y: Scale, fill: impl FnOnce(&mut Panel)) {
+        let untitled = |scale: Scale| Axis {
+            title: String::new(),
+            scale,
+        };
+        let widest = y.ticks().iter().filter_map(|tick| tick.label.as_deref());
+        let widest = widest
+            .map(|label| theme::text_width(label, theme::SMALL_TEXT))
+            .max();
+        let mut canvas = std::mem::take(&mut self.canvas);
+        canvas.blank(Area {
+            left: plot.left - theme::TICK - theme::GAP * 3 / 2 - widest.unwrap_or(0),
+            top: plot.top - theme::SMALL_TEXT / 2 - theme::GAP,
+            right: plot.right + theme::GAP * 2,
+            bottom: plot.bottom + theme::TICK + theme::GAP + theme::SMALL_TEXT * 3 / 2,
+        });
+        let mut inner = Panel {
+            canvas,
+            x: untitled(x),
+            y: untitled(y),
+            plot,
+            heading: None,
+            below: 0,
+        };
+        inner.horizontal_axis();
+        inner.vertical_axis();
+        fill(&mut inner);
+        self.canvas = inner.canvas;
     }
 
     /// Place of a pair of displayed numbers.
@@ -108,6 +135,9 @@ impl Panel {
                 occupied = area.right + theme::GAP;
                 self.canvas.text(text);
             }
+        }
+        if self.x.title.is_empty() {
+            return;
         }
         let middle = label_height + theme::SMALL_TEXT / 2 + theme::GAP + theme::TEXT / 2;
         let title = Text::new(
@@ -160,6 +190,9 @@ impl Panel {
         let stroke = Stroke::solid(theme::INK, theme::AXIS_STROKE);
         self.canvas
             .path(&[(left, top), (left, bottom), (right, bottom)], stroke);
+        if self.y.title.is_empty() {
+            return;
+        }
         let at = (theme::BORDER + theme::TEXT * 6 / 10, (top + bottom) / 2);
         let mut title = Text::new(&self.y.title, at, theme::TEXT, Anchor::Middle);
         title.turned = true;
@@ -202,9 +235,9 @@ impl Panel {
         }
     }
 
-    /// Puts a label beside a marker, where it covers nothing.
-    pub fn label_beside(&mut self, at: Position, label: &str, colour: theme::Colour) {
-        let (near, far) = (theme::MARKER + 70, theme::MARKER + 190);
+    /// Puts a label beside a marker that reaches `half` around its place, where it covers nothing.
+    pub fn label_beside(&mut self, at: Position, half: i32, label: &str, colour: theme::Colour) {
+        let (near, far) = (half + 50, half + 170);
         let places = [
             ((near, -far / 2), Anchor::Start),
             ((-near, -far / 2), Anchor::End),
@@ -248,71 +281,6 @@ impl Panel {
             height,
         })
     }
-
-    /// Entries row by row, in as many columns as fit. Gives back the lower edge.
-    fn legend(&mut self, legend: &[Entry]) -> i32 {
-        if legend.is_empty() {
-            return self.below;
-        }
-        let widths = columns(legend, theme::WIDTH - theme::BORDER - self.plot.left);
-        let whole: i32 = widths.iter().sum();
-        // One wide entry may need the space below the axis labels, too.
-        let left = self
-            .plot
-            .left
-            .min(theme::WIDTH - theme::BORDER - whole)
-            .max(theme::BORDER);
-        for (index, entry) in legend.iter().enumerate() {
-            let (row, column) = (index / widths.len(), index % widths.len());
-            let x = left + widths[..column].iter().sum::<i32>();
-            let y = self.below + theme::GAP + row as i32 * theme::LEGEND_ROW + theme::LEGEND_ROW / 2;
-            self.legend_entry(entry, (x, y));
-        }
-        let rows = legend.len().div_ceil(widths.len()) as i32;
-        self.below + theme::GAP + rows * theme::LEGEND_ROW
-    }
-
-    fn legend_entry(&mut self, entry: &Entry, (x, y): Position) {
-        if entry.line {
-            let stroke = Stroke {
-                dash: entry.style.dash,
-                ..Stroke::solid(entry.style.colour, theme::LINE_STROKE)
-            };
-            self.canvas.line((x, y), (x + theme::SAMPLE, y), stroke);
-        }
-        if entry.markers {
-            let middle = (x + theme::SAMPLE / 2, y);
-            self.canvas
-                .marker(entry.style.marker, middle, entry.style.colour, 1.0);
-        }
-        let at = (x + theme::SAMPLE + theme::GAP, y);
-        self.canvas
-            .text(Text::new(&entry.label, at, theme::TEXT, Anchor::Start));
-    }
-}
-
-/// Widths of the most columns that fit into a legend.
-fn columns(legend: &[Entry], room: i32) -> Vec<i32> {
-    let width = |entry: &Entry| {
-        theme::SAMPLE + theme::GAP + theme::text_width(&entry.label, theme::TEXT) + 3 * theme::GAP
-    };
-    let widths = |columns: usize| -> Vec<i32> {
-        let column = |column| {
-            legend
-                .iter()
-                .skip(column)
-                .step_by(columns)
-                .map(width)
-                .max()
-                .unwrap_or(0)
-        };
-        (0..columns).map(column).collect()
-    };
-    let fitting = (1..=legend.len())
-        .rev()
-        .map(widths)
-        .find(|widths| widths.iter().sum::<i32>() <= room);
-    fitting.unwrap_or_else(|| widths(1))
 }
 
 /// A finished figure.

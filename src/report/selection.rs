@@ -9,6 +9,8 @@ use crate::study::model::{AxisValue, Selection, Study};
 pub struct Group<'a> {
     /// Empty when nothing groups them.
     pub label: String,
+    /// The value alone, for a legend whose heading names the parameter.
+    pub value: String,
     pub runs: Vec<&'a Run>,
 }
 
@@ -24,6 +26,7 @@ pub fn grouped<'a>(study: &Study, runs: &[&'a Run], by: Option<&str>) -> Vec<Gro
     let Some(name) = by else {
         return vec![Group {
             label: String::new(),
+            value: String::new(),
             runs: runs.to_vec(),
         }];
     };
@@ -37,14 +40,15 @@ pub fn grouped<'a>(study: &Study, runs: &[&'a Run], by: Option<&str>) -> Vec<Gro
         match found {
             Some((_, group)) => group.runs.push(run),
             None => {
-                let label = match &value {
-                    Some(value) => named(study, name, value),
-                    None => format!("without {}", format::words(name)),
+                let (label, alone) = match &value {
+                    Some(value) => (named(study, name, value), shown(study, name, value)),
+                    None => (format!("without {}", format::words(name)), "none".to_owned()),
                 };
                 groups.push((
                     value,
                     Group {
                         label,
+                        value: alone,
                         runs: vec![run],
                     },
                 ));
@@ -54,8 +58,16 @@ pub fn grouped<'a>(study: &Study, runs: &[&'a Run], by: Option<&str>) -> Vec<Gro
     groups.into_iter().map(|(_, group)| group).collect()
 }
 
-/// `width 4.2 mm`; a scene goes by its name alone.
+/// The parameter that a legend of groups names once, above the values; a scene needs no name.
+pub fn heading(by: &str) -> Option<String> {
+    (by != "scene").then(|| format::title_words(by))
+}
+
+/// `width 4.2 mm`, `spacing 2 d` in grain diameters; a scene goes by its name alone.
 pub fn named(study: &Study, name: &str, value: &AxisValue) -> String {
+    if let (Some(length), AxisValue::Number(number)) = (name.strip_suffix("_over_diameter"), value) {
+        return format!("{} {} d", format::words(length), format::number(*number));
+    }
     if name == "scene" {
         return shown(study, name, value);
     }
@@ -92,7 +104,16 @@ pub fn label(study: &Study, run: &Run) -> String {
     if study.scenes.len() > 1 {
         parts.push(format::words(&run.scene));
     }
-    parts.extend(run.axes.iter().map(|(name, value)| named(study, name, value)));
+    let mut kept: Vec<&str> = Vec::new();
+    for (name, value) in &run.axes {
+        if !kept
+            .iter()
+            .any(|earlier| carries(study, &run.scene, earlier, name))
+        {
+            parts.push(named(study, name, value));
+            kept.push(name);
+        }
+    }
     if study.seeds.len() > 1 {
         parts.push(format!("seed {}", run.seed));
     }
@@ -101,6 +122,28 @@ pub fn label(study: &Study, run: &Run) -> String {
     } else {
         parts.join(", ")
     }
+}
+
+/// Whether an axis moves along with an earlier one, so that naming the earlier one says all: to each
+/// of several values of `earlier` belongs one of `axis`.
+fn carries(study: &Study, scene: &str, earlier: &str, axis: &str) -> bool {
+    let value = |axes: &[(String, AxisValue)], name: &str| {
+        axes.iter()
+            .find(|(other, _)| other == name)
+            .map(|(_, value)| value.clone())
+    };
+    let mut pairs: Vec<(AxisValue, AxisValue)> = Vec::new();
+    for point in study.plan.points.iter().filter(|point| point.scene == scene) {
+        let (Some(key), Some(found)) = (value(&point.axes, earlier), value(&point.axes, axis)) else {
+            return false;
+        };
+        match pairs.iter().find(|(known, _)| same(known, &key)) {
+            Some((_, known)) if !same(known, &found) => return false,
+            Some(_) => {}
+            None => pairs.push((key, found)),
+        }
+    }
+    pairs.len() > 1
 }
 
 /// `scene` and axes with more than one value among the runs, without those named.

@@ -207,7 +207,8 @@ fn convergence(sweep: &[Resolved]) -> Convergence {
     Convergence {
         order: Some(order),
         index: Some(0.4 * first.error),
-        honesty: "monotone, asymptotic".into(),
+        no_order: None,
+        no_index: None,
     }
 }
 
@@ -332,7 +333,7 @@ fn the_page_says_what_held_and_where_it_comes_from() {
         "2026-05-03 12:30 UTC",
         "velocity of grain 0 is not finite",
         "Raso (2014), figure 5.18",
-        "4.91</td>",
+        "4.910</td>",
         "3.87 %",
         "&lt; 2 %",
         "cargo study sweep",
@@ -351,9 +352,61 @@ fn the_page_says_what_held_and_where_it_comes_from() {
 fn the_failed_point_enters_no_figure() {
     let (study, runs) = (study(), with_a_failure());
     let plate = figure::draw(&study, &runs, &study.figures[1], &NUMBERS).unwrap();
-    assert!(!plate.table.csv().contains("spacing / diameter 6"));
-    assert!(plate.table.csv().contains("spacing / diameter 4"));
+    assert!(!plate.table.csv().contains("spacing 6 d"));
+    assert!(plate.table.csv().contains("spacing 4 d"));
     assert_eq!(plate.notes.last().unwrap(), "Left out: 1 failed.");
+}
+
+fn notes_of(id: &str) -> String {
+    let plates = plates();
+    let plate = plates.iter().find(|plate| plate.id == id).unwrap();
+    plate.notes.join(" ")
+}
+
+#[test]
+fn a_fast_start_is_enlarged_where_there_is_room() {
+    assert!(notes_of("start-up").contains("Inset: the first 10 ms."));
+    // Slower scenes lie where the inset would be.
+    assert!(!notes_of("velocities").contains("Inset"));
+}
+
+#[test]
+fn each_scene_has_a_front_of_its_own() {
+    let plates = plates();
+    let cost = plates.iter().find(|plate| plate.id == "cost").unwrap();
+    // Within a scene a finer spacing is always dearer and better, so that no point is beaten.
+    assert_eq!(cost.table.csv().matches(",yes\n").count(), 15);
+}
+
+#[test]
+fn what_a_sweep_cannot_show_is_said_with_the_reason() {
+    let study = study();
+    let mut runs = runs();
+    for (run, error) in runs[5..10].iter_mut().zip([-0.01, 0.02, -0.005, 0.01, -0.01]) {
+        run.settings = serde_json::json!({"rehearsal": {
+            "limit": 2.0, "time_constant": 0.1, "duration": 1.0, "samples": 20, "scale": 1.0,
+            "order": 2.0, "error": 0.0, "delay": 0.0, "ending": "completes"
+        }});
+        run.scalars[0].value = 2.0 * (1.0 + error);
+    }
+    let kind = FigureKind::ErrorAgainstResolution {
+        of: "terminal_velocity".into(),
+        against: "known_limit".into(),
+        over: "spacing_over_diameter".into(),
+        group: None,
+    };
+    let figure = only("block_dilute", drawn("signs", kind));
+    let plate = figure::draw(&study, &runs, &figure, &Numbers::JUDGED).unwrap();
+    let notes = plate.notes.join(" ");
+    for told in [
+        "known limit, 2.000 m/s",
+        "open ones: below it",
+        "No observed order, because the error changes its sign along the sweep",
+        "no grid convergence index, because the values rise and fall along the sweep",
+    ] {
+        assert!(notes.contains(told), "{told}: {notes}");
+    }
+    assert!(!plate.svg.contains("order"));
 }
 
 #[test]

@@ -33,12 +33,14 @@ pub const MARKER: i32 = 95;
 /// Half the width of the cap of an uncertainty bar.
 pub const CAP: i32 = 70;
 /// Length of the line sample in a legend.
-pub const SAMPLE: i32 = 760;
+pub const SAMPLE: i32 = 920;
 pub const LEGEND_ROW: i32 = 480;
 
 /// Red, green, blue.
 pub type Colour = (u8, u8, u8);
 
+/// What lies below: fills open markers and the ground of an inset.
+pub const PAPER: Colour = (0xFF, 0xFF, 0xFF);
 /// Axes, text, reference curves.
 pub const INK: Colour = (0x1A, 0x1A, 0x1A);
 /// Bounds, fronts, slope triangles.
@@ -46,7 +48,8 @@ pub const SOFT: Colour = (0x5F, 0x5F, 0x5F);
 pub const GRID: Colour = (0xE2, 0xE2, 0xE2);
 
 /// Colours beside their counterpart on a dark page.
-const DARK: [(Colour, &str); 9] = [
+const DARK: [(Colour, &str); 10] = [
+    (PAPER, "#161616"),
     (INK, "#EDEDED"),
     (SOFT, "#A8A8A8"),
     (GRID, "#3A3A3A"),
@@ -193,7 +196,7 @@ mod tests {
     #[test]
     fn every_colour_has_a_form_for_dark_pages() {
         let sheet = style_sheet();
-        for colour in COLOURS.iter().chain([&INK, &SOFT, &GRID]) {
+        for colour in COLOURS.iter().chain([&PAPER, &INK, &SOFT, &GRID]) {
             assert!(sheet.contains(&hex(*colour)));
         }
     }

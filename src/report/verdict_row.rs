@@ -2,8 +2,10 @@
 
 use serde::Serialize;
 
-use super::format;
+use super::{format, told};
 use crate::judge::model::{Outcome, Verdict};
+use crate::reference;
+use crate::study::model::{Check, Study};
 
 #[derive(Serialize)]
 pub struct VerdictRow {
@@ -16,8 +18,13 @@ pub struct VerdictRow {
     error: String,
     band: String,
     kind: &'static str,
+    mark: &'static str,
     word: &'static str,
     reason: Option<String>,
+    /// The point that the numbers of the row belong to, where there are several.
+    at: Option<String>,
+    /// What the reference is, in words.
+    reference: Option<String>,
     source: String,
     claims: Vec<String>,
     informative: Option<String>,
@@ -31,20 +38,22 @@ pub struct PointRow {
     computed: String,
     error: String,
     kind: &'static str,
+    mark: &'static str,
     word: &'static str,
 }
 
-fn outcome_words(outcome: Outcome) -> (&'static str, &'static str) {
+/// Style, symbol and word: a colour alone tells nothing to many, and nothing on paper.
+fn outcome_words(outcome: Outcome) -> (&'static str, &'static str, &'static str) {
     match outcome {
-        Outcome::Holds => ("holds", "holds"),
-        Outcome::Fails => ("fails", "fails"),
-        Outcome::NotDecidable => ("open", "not decidable"),
+        Outcome::Holds => ("holds", "✓", "holds"),
+        Outcome::Fails => ("fails", "✗", "fails"),
+        Outcome::NotDecidable => ("open", "?", "not decidable"),
     }
 }
 
-/// One verdict in words.
-pub fn verdict_row(verdict: &Verdict) -> VerdictRow {
-    let (kind, word) = outcome_words(verdict.verdict);
+/// One verdict in words; [`told`] before.
+pub fn verdict_row(study: &Study, verdict: &Verdict) -> VerdictRow {
+    let (kind, mark, word) = outcome_words(verdict.verdict);
     let values = verdict
         .points
         .iter()
@@ -62,20 +71,25 @@ pub fn verdict_row(verdict: &Verdict) -> VerdictRow {
         },
     };
     let value =
-        |value: Option<f64>| value.map_or("–".to_owned(), |value| format::number(value * unit.factor));
-    let error = |error: Option<f64>| error.map_or("–".to_owned(), format::percent);
-    let points = verdict.points.iter().map(|point| PointRow {
-        label: point.label.clone(),
-        expected: value(point.expected),
-        computed: value(point.computed),
-        error: error(point.error),
-        kind: point
-            .holds
-            .map_or("open", |holds| if holds { "holds" } else { "fails" }),
-        word: point
-            .holds
-            .map_or("–", |holds| if holds { "holds" } else { "fails" }),
+        |value: Option<f64>| value.map_or("–".to_owned(), |value| format::four_digits(value * unit.factor));
+    let error = |error: Option<f64>| error.map_or("–".to_owned(), format::percent_found);
+    let points = verdict.points.iter().map(|point| {
+        let (kind, mark, word) = match point.holds {
+            Some(true) => outcome_words(Outcome::Holds),
+            Some(false) => outcome_words(Outcome::Fails),
+            None => ("open", "", "–"),
+        };
+        PointRow {
+            label: point.label.clone(),
+            expected: value(point.expected),
+            computed: value(point.computed),
+            error: error(point.error),
+            kind,
+            mark,
+            word,
+        }
     });
+    let deciding = told::deciding(verdict).filter(|_| verdict.points.len() > 1);
     VerdictRow {
         id: verdict.id.clone(),
         statement: verdict.statement.clone(),
@@ -83,10 +97,13 @@ pub fn verdict_row(verdict: &Verdict) -> VerdictRow {
         expected: value(verdict.expected),
         computed: value(verdict.computed),
         error: error(verdict.error),
-        band: band(verdict),
+        band: told::band(verdict),
         kind,
+        mark,
         word,
         reason: verdict.reason.clone(),
+        at: deciding.map(|point| point.label.clone()),
+        reference: meaning(study, &verdict.id),
         source: verdict.source.clone(),
         claims: verdict.claims.clone(),
         informative: verdict.informative.clone(),
@@ -95,14 +112,14 @@ pub fn verdict_row(verdict: &Verdict) -> VerdictRow {
     }
 }
 
-/// A bound on an error in percent, like the error beside it.
-fn band(verdict: &Verdict) -> String {
-    let bound = verdict
-        .band
-        .strip_prefix("< ")
-        .and_then(|bound| bound.trim().parse::<f64>().ok());
-    match (verdict.error, bound) {
-        (Some(_), Some(bound)) => format!("< {}", format::percent(bound)),
-        _ => verdict.band.clone(),
-    }
+/// What the reference of an expectation is, as the list of references says it.
+fn meaning(study: &Study, id: &str) -> Option<String> {
+    let expectation = study.expect.iter().find(|expectation| expectation.id == id)?;
+    let (Check::Error { against, .. } | Check::Order { against, .. }) = &expectation.check else {
+        return None;
+    };
+    let entry = reference::list()
+        .into_iter()
+        .find(|entry| entry.name == against)?;
+    Some(format!("`{}`, {}", entry.name, entry.meaning))
 }

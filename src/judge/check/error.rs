@@ -40,7 +40,7 @@ pub fn check(groups: &[Replicates], of: &str, against: &str, below: f64) -> Find
 }
 
 fn part(group: &Replicates, error: &PointError, below: f64) -> Part {
-    let found = percent(error.error);
+    let found = format!("{} %", significant(100.0 * error.error, 3));
     if error.spread > 0.0 && (error.error - below).abs() <= error.spread {
         return Part::open(format!(
             "{}: the error {found} ± {} over seeds straddles {}; run more seeds",
@@ -52,10 +52,14 @@ fn part(group: &Replicates, error: &PointError, below: f64) -> Part {
     if error.error < below {
         return Part::holds();
     }
+    let unit = match error.unit.as_str() {
+        "1" | "" => String::new(),
+        unit => format!(" {unit}"),
+    };
     Part::fails(format!(
-        "{}: the error is {found}, {} instead of {}",
+        "{}: the error is {found}, {}{unit} instead of {}{unit}",
         group.label(),
-        significant(error.computed, 6),
-        significant(error.expected, 6)
+        significant(error.computed, 4),
+        significant(error.expected, 4)
     ))
 }

@@ -3,11 +3,12 @@
 
 use super::super::axis::Scale;
 use super::super::canvas::{Area, Position, Stroke};
+use super::super::legend::Entry;
 use super::super::numbers::{Convergence, PointError, Resolved};
-use super::super::panel::{Axis, Entry, Panel};
+use super::super::panel::{Axis, Panel};
 use super::super::theme::{self, Style};
 use super::slope::{self, middles};
-use super::{Cell, Material, Plate, Table, distinct};
+use super::{Cell, Material, Plate, Table, cited};
 use crate::report::format::Unit;
 use crate::report::{ReportError, format, selection};
 use crate::store::model::Run;
@@ -16,6 +17,8 @@ use crate::study::model::Check;
 /// The points of one group from fine to coarse.
 struct Sweep<'a> {
     label: String,
+    /// The grouping value alone.
+    value: String,
     style: Style,
     points: Vec<(&'a Run, f64, PointError)>,
     convergence: Convergence,
@@ -54,7 +57,7 @@ pub fn draw(
     };
     let mut panel = Panel::new(
         Axis {
-            title: format!("{}{}", format::words(over), unit.in_brackets()),
+            title: format!("{}{}", format::title_words(over), unit.in_brackets()),
             scale: x.with_ticks_at(&shown),
         },
         Axis {
@@ -91,15 +94,19 @@ pub fn draw(
             }
         }
     }
-    let title = material.title(format!(
-        "error of {} over {}",
+    let suggested = format!(
+        "relative error of {} over {}",
         format::words(of),
-        format::words(over)
-    ));
+        format::title_words(over)
+    );
+    let title = material.title(&suggested);
     let description = format!("{} points in {} groups.", errors.len(), sweeps.len());
-    let drawing = panel.finish(&legend(&sweeps, of), &material.id(), &title, &description)?;
+    panel.heading = group.and_then(selection::heading);
+    let legend = legend(&sweeps, of, panel.heading.is_some());
+    let drawing = panel.finish(&legend, &material.id(), &title, &description)?;
     let table = table(material, &sweeps, over, of);
-    Ok(material.plate(title, drawing, notes(&sweeps, against, over), table))
+    let notes = material.captioned(&suggested, notes(material, &sweeps, of, against, over));
+    Ok(material.plate(title, drawing, notes, table))
 }
 
 fn sweeps<'a>(
@@ -138,6 +145,7 @@ fn sweeps<'a>(
         convergence.index = convergence.index.filter(|index| index.is_finite());
         sweeps.push(Sweep {
             label: members.label,
+            value: members.value,
             style: theme::style(index),
             points,
             convergence,
@@ -225,8 +233,11 @@ fn draw_sweep(panel: &mut Panel, sweep: &Sweep, places: &[Position], factor: f64
         let ends = [finest.error + index, finest.error - index].map(|end| end * factor);
         uncertainty(panel, at.0, ends, colour);
     }
-    for at in places {
-        panel.canvas.marker(marker, *at, colour, 1.0);
+    for (at, (_, _, error)) in places.iter().zip(&sweep.points) {
+        match error.signed < 0.0 {
+            true => panel.canvas.open_marker(marker, *at, colour),
+            false => panel.canvas.marker(marker, *at, colour, 1.0),
+        }
         panel.canvas.take(Area::around(*at, theme::MARKER + 30));
     }
 }
@@ -256,12 +267,21 @@ fn uncertainty(panel: &mut Panel, x: i32, ends: [f64; 2], colour: theme::Colour)
     }
 }
 
-fn legend(sweeps: &[Sweep], of: &str) -> Vec<Entry> {
+fn legend(sweeps: &[Sweep], of: &str, headed: bool) -> Vec<Entry> {
+    // One line that the vertical axis names needs no legend, unless its order stands there.
+    if let [sweep] = sweeps
+        && sweep.label.is_empty()
+        && sweep.convergence.order.is_none()
+    {
+        return Vec::new();
+    }
     sweeps
         .iter()
         .map(|sweep| {
             let name = if sweep.label.is_empty() {
                 format::words(of)
+            } else if headed {
+                sweep.value.clone()
             } else {
                 sweep.label.clone()
             };
@@ -274,46 +294,49 @@ fn legend(sweeps: &[Sweep], of: &str) -> Vec<Entry> {
                 style: sweep.style,
                 markers: true,
                 line: true,
+                open: sweep.points.iter().all(|point| point.2.signed < 0.0),
             }
         })
         .collect()
 }
 
-fn notes(sweeps: &[Sweep], against: &str, over: &str) -> Vec<String> {
-    let sources = sweeps
-        .iter()
-        .flat_map(|sweep| sweep.points.iter().map(|point| point.2.source.clone()));
-    let sources = distinct(sources.collect());
-    let mut notes = vec![format!(
-        "Reference {}: {}.",
-        format::words(against),
-        sources.join("; ")
-    )];
-    if sources.is_empty() {
-        notes[0] = format!("Reference: {}.", format::words(against));
+fn notes(material: &Material, sweeps: &[Sweep], of: &str, against: &str, over: &str) -> Vec<String> {
+    let errors = || {
+        sweeps
+            .iter()
+            .flat_map(|sweep| sweep.points.iter().map(|point| &point.2))
+    };
+    let sources = errors().map(|error| error.source.clone()).collect();
+    let expected: Option<Vec<f64>> = errors().map(|error| error.expected).collect();
+    let unit = material.runs.iter().find_map(|run| run.scalar(of));
+    let (expected, unit) = match (expected, unit) {
+        (Some(expected), Some(scalar)) => (expected, scalar.unit.as_str()),
+        _ => (Vec::new(), ""),
+    };
+    let mut notes = vec![format!("Reference {}.", cited(against, &expected, unit, sources))];
+    let below = errors().filter(|error| error.signed < 0.0).count();
+    if below > 0 && below == errors().count() {
+        notes.push("Open markers: every value lies below the reference.".to_owned());
+    } else if below > 0 {
+        notes.push("Filled markers: value above the reference; open ones: below it.".to_owned());
     }
     if sweeps.iter().any(|sweep| sweep.convergence.order.is_some()) {
         notes.push(format!(
             "Triangles and numbers: observed order in {}.",
-            format::words(over)
+            format::title_words(over)
         ));
     }
     if sweeps.iter().any(|sweep| sweep.convergence.index.is_some()) {
         notes.push("Bars: grid convergence index of the finest point.".to_owned());
     }
-    for sweep in sweeps
-        .iter()
-        .filter(|sweep| !sweep.convergence.honesty.is_empty())
-    {
-        let name = if sweep.label.is_empty() {
-            "Sweep".to_owned()
-        } else {
-            format::sentence(&sweep.label)
+    for sweep in sweeps {
+        let Some(doubts) = sweep.convergence.doubts() else {
+            continue;
         };
-        notes.push(format!(
-            "{name}: {}.",
-            sweep.convergence.honesty.trim_end_matches('.')
-        ));
+        notes.push(match sweep.label.is_empty() {
+            true => format!("{}.", format::sentence(&doubts)),
+            false => format!("{}: {doubts}.", format::sentence(&sweep.label)),
+        });
     }
     notes
 }

@@ -1,7 +1,8 @@
 //! Curves of many runs on one pair of axes: shared by time series and profiles.
 
 use super::super::canvas::Stroke;
-use super::super::panel::{Entry, Panel};
+use super::super::legend::Entry;
+use super::super::panel::Panel;
 use super::super::theme::{self, Style};
 use super::Material;
 use crate::report::{format, selection};
@@ -27,6 +28,8 @@ pub type Look = (Style, f64, Option<usize>);
 pub struct Looks {
     pub styles: Vec<Look>,
     pub legend: Vec<Entry>,
+    /// The parameter whose values the legend lists.
+    pub heading: Option<String>,
     /// Says what fading means, where lines fade.
     pub note: Option<String>,
 }
@@ -37,9 +40,11 @@ pub fn looks(material: &Material, quantities: &[String], group: Option<&str>) ->
     let runs = &material.runs;
     let groups = selection::grouped(material.study, runs, group);
     let several = quantities.len() > 1;
+    let by = single_parameter(runs, group).filter(|_| !several);
     let mut looks = Looks {
         styles: Vec::new(),
         legend: Vec::new(),
+        heading: by.as_deref().and_then(selection::heading),
         note: None,
     };
     let mut styles = vec![None; runs.len() * quantities.len()];
@@ -54,7 +59,10 @@ pub fn looks(material: &Material, quantities: &[String], group: Option<&str>) ->
             let varying = varying_names(&members.runs, group);
             if group.is_none() {
                 for run in &members.runs {
-                    let label = material.distinction(run, &varying);
+                    let label = match (&looks.heading, varying.as_slice()) {
+                        (Some(_), [name]) => material.value(run, name),
+                        _ => material.distinction(run, &varying),
+                    };
                     let label = joined(&called, &label, &format::words(quantity));
                     styles[position(runs, run) + place * runs.len()] = Some((solid(next), 1.0, Some(next)));
                     looks.legend.push(marked(label, solid(next)));
@@ -68,9 +76,13 @@ pub fn looks(material: &Material, quantities: &[String], group: Option<&str>) ->
                 styles[position(runs, run) + place * runs.len()] = Some(look);
             }
             looks.note = looks.note.or_else(|| fading(material, &members.runs, &varying));
+            let label = match looks.heading {
+                Some(_) => &members.value,
+                None => &members.label,
+            };
             looks
                 .legend
-                .push(marked(joined(&called, &members.label, "runs"), solid(next)));
+                .push(marked(joined(&called, label, "runs"), solid(next)));
             next += 1;
         }
     }
@@ -79,6 +91,17 @@ pub fn looks(material: &Material, quantities: &[String], group: Option<&str>) ->
         .map(|look| look.unwrap_or((solid(0), 1.0, None)))
         .collect();
     looks
+}
+
+/// The one parameter by which a figure's lines differ in style.
+fn single_parameter(runs: &[&Run], group: Option<&str>) -> Option<String> {
+    if let Some(name) = group {
+        return Some(name.to_owned());
+    }
+    match varying_names(runs, None).as_slice() {
+        [name] => Some(name.clone()),
+        _ => None,
+    }
 }
 
 /// Axes that tell runs apart. An axis that moves along with an earlier one tells nothing more.
@@ -146,6 +169,7 @@ fn marked(label: String, style: Style) -> Entry {
         style,
         markers: true,
         line: true,
+        open: false,
     }
 }
 
@@ -156,6 +180,7 @@ pub fn reference_entry(label: String) -> Entry {
         style: reference_style(),
         markers: false,
         line: true,
+        open: false,
     }
 }
 
@@ -167,13 +192,15 @@ pub fn reference_style() -> Style {
     }
 }
 
-/// Draws one curve; values in SI, `factors` turn them into displayed units.
+/// Draws one curve as far as the horizontal axis goes; values in SI, `factors` turn them into
+/// displayed units.
 pub fn draw(panel: &mut Panel, line: &Line, factors: (f64, f64)) {
     let points: Vec<_> = line
         .x
         .iter()
         .zip(&line.y)
         .filter(|(x, y)| x.is_finite() && y.is_finite())
+        .filter(|(x, _)| panel.x.scale.fraction(**x * factors.0) < 1.0 + 1e-9)
         .map(|(x, y)| panel.at(x * factors.0, y * factors.1))
         .collect();
     let stroke = Stroke {

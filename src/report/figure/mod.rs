@@ -163,11 +163,28 @@ impl Material<'_> {
     }
 
     /// The title given in the study, or the one the kind suggests.
-    fn title(&self, suggested: String) -> String {
-        self.figure
-            .title
-            .clone()
-            .unwrap_or_else(|| format::sentence(&suggested))
+    fn title(&self, suggested: &str) -> String {
+        let scenes: Vec<String> = self
+            .figure
+            .selection
+            .scenes
+            .iter()
+            .map(|scene| format::words(scene))
+            .collect();
+        let of = match scenes.is_empty() {
+            true => String::new(),
+            false => format!(": {}", scenes.join(", ")),
+        };
+        let given = self.figure.title.clone();
+        given.unwrap_or_else(|| format::sentence(suggested) + &of)
+    }
+
+    /// Notes for the caption, led by what is plotted where the study's title does not say it.
+    fn captioned(&self, suggested: &str, mut notes: Vec<String>) -> Vec<String> {
+        if self.figure.title.is_some() {
+            notes.insert(0, format!("{}.", format::sentence(suggested)));
+        }
+        notes
     }
 
     /// The finished figure with its surroundings.
@@ -183,6 +200,14 @@ impl Material<'_> {
         }
     }
 
+    /// A parameter's value, for a legend that names the parameter once.
+    fn value(&self, run: &Run, name: &str) -> String {
+        let value = run.parameter(name);
+        value.map_or("none".to_owned(), |value| {
+            selection::shown(self.study, name, &value)
+        })
+    }
+
     /// What tells the runs of one group apart, for labels.
     fn distinction(&self, run: &Run, names: &[String]) -> String {
         let parts: Vec<String> = names
@@ -194,6 +219,21 @@ impl Material<'_> {
             .collect();
         parts.join(", ")
     }
+}
+
+/// `force balance, 4.912 mm/s: Raso (2014), eq. 4.4`: a reference for a caption, with its value where
+/// there is a single one.
+pub(super) fn cited(against: &str, values: &[f64], unit: &str, sources: Vec<String>) -> String {
+    let single = values
+        .split_first()
+        .filter(|(first, others)| others.iter().all(|other| other == *first));
+    let value = single.map(|(value, _)| format!(", {}", format::quantity(*value, unit)));
+    let sources = distinct(sources);
+    let sources = match sources.is_empty() {
+        true => String::new(),
+        false => format!(": {}", sources.join("; ")),
+    };
+    format!("{}{}{sources}", format::words(against), value.unwrap_or_default())
 }
 
 /// Sorted, without repetition: sources for a caption.

@@ -30,9 +30,10 @@ pub fn draw(material: &Material, of: &str, group: Option<&str>) -> Result<Plate,
         &height_unit,
         lines::largest(drawn.iter().flat_map(|line| &line.y)),
     );
+    let called = format::words(along_name.strip_suffix("_profile").unwrap_or(&along_name));
     let mut panel = Panel::new(
         Axis {
-            title: format!("{}{}", format::words(&along_name), along.in_brackets()),
+            title: format!("{called}{}", along.in_brackets()),
             scale: Scale::linear(
                 drawn
                     .iter()
@@ -48,14 +49,13 @@ pub fn draw(material: &Material, of: &str, group: Option<&str>) -> Result<Plate,
             ),
         },
     );
+    panel.heading = looks.heading;
     for line in &drawn {
         lines::draw(&mut panel, line, (along.factor, height.factor));
     }
-    let title = material.title(format!(
-        "{} over {}",
-        format::words(&along_name),
-        format::words(&height_name)
-    ));
+    let suggested = format!("{called} over {}", format::words(&height_name));
+    let title = material.title(&suggested);
+    let notes = material.captioned(&suggested, looks.note.into_iter().collect());
     let description = format!("{} profiles, height upwards.", drawn.len());
     let drawing = panel.finish(&looks.legend, &material.id(), &title, &description)?;
     let heads = [
@@ -63,7 +63,7 @@ pub fn draw(material: &Material, of: &str, group: Option<&str>) -> Result<Plate,
         format!("{along_name} [{along_unit}]"),
     ];
     let table = table(material, of, &["run", &heads[0], &heads[1]])?;
-    Ok(material.plate(title, drawing, looks.note.into_iter().collect(), table))
+    Ok(material.plate(title, drawing, notes, table))
 }
 
 /// Height and quantity: `of` names a profile table (its second column is drawn) or a column of one.

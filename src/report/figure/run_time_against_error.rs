@@ -2,16 +2,20 @@
 
 use super::super::axis::Scale;
 use super::super::canvas::{Area, Position, Stroke};
+use super::super::legend::Entry;
 use super::super::numbers::{PointError, RECOMMENDED};
-use super::super::panel::{Axis, Entry, Panel};
+use super::super::panel::{Axis, Panel};
 use super::super::theme::{self, Style};
-use super::{Cell, Material, Plate, Table, distinct};
+use super::{Cell, Material, Plate, Table, cited};
 use crate::report::format::Unit;
 use crate::report::{ReportError, format, selection};
 use crate::store::model::Run;
 
 /// Seconds below which a clock says nothing: shorter runs are drawn here.
 const SHORTEST: f64 = 1e-6;
+
+/// Radius of the ring around a recommended resolution.
+const RING: i32 = theme::MARKER * 19 / 10;
 
 struct Priced<'a> {
     run: &'a Run,
@@ -70,10 +74,14 @@ pub fn draw(material: &Material, of: &str, against: &str, group: Option<&str>) -
             )
         })
         .collect();
-    let front = front(material, &priced);
-    draw_front(&mut panel, &front, &places);
+    let fronts = fronts(material, &priced);
+    for front in &fronts {
+        draw_front(&mut panel, front, &priced, &places);
+    }
     let resolution = resolution(material, group);
     draw_points(&mut panel, &priced, &places, resolution.as_deref());
+    panel.heading = group.and_then(selection::heading);
+    let headed = panel.heading.is_some();
 
     let mut legend: Vec<Entry> = groups
         .iter()
@@ -81,28 +89,37 @@ pub fn draw(material: &Material, of: &str, against: &str, group: Option<&str>) -
         .map(|(index, members)| Entry {
             label: if members.label.is_empty() {
                 "runs".to_owned()
+            } else if headed {
+                members.value.clone()
             } else {
                 members.label.clone()
             },
             style: theme::style(index),
             markers: true,
             line: false,
+            open: false,
         })
         .collect();
-    if front.len() > 1 {
+    let front: Vec<usize> = fronts.concat();
+    if front.len() > fronts.len() {
         let style = Style {
             colour: theme::SOFT,
             dash: theme::SOLID,
             marker: theme::Marker::Circle,
         };
         legend.push(Entry {
-            label: "Pareto front".to_owned(),
+            label: match fronts.len() {
+                1 => "Pareto front".to_owned(),
+                _ => "Pareto front of each scene".to_owned(),
+            },
             style,
             markers: false,
             line: true,
+            open: false,
         });
     }
-    let title = material.title(format!("run time against error of {}", format::words(of)));
+    let suggested = format!("run time against relative error of {}", format::words(of));
+    let title = material.title(&suggested);
     let description = format!(
         "{} points, {} of them on the Pareto front.",
         priced.len(),
@@ -110,27 +127,39 @@ pub fn draw(material: &Material, of: &str, against: &str, group: Option<&str>) -
     );
     let drawing = panel.finish(&legend, &material.id(), &title, &description)?;
     let table = table(material, &priced, &front, of);
-    Ok(material.plate(
-        title,
-        drawing,
-        notes(&priced, against, resolution.as_deref()),
-        table,
-    ))
+    let notes = notes(material, &priced, against, resolution.as_deref());
+    Ok(material.plate(title, drawing, material.captioned(&suggested, notes), table))
 }
 
-/// Indices on the front, from the smallest error upwards.
-fn front(material: &Material, priced: &[Priced]) -> Vec<usize> {
-    let pairs: Vec<(f64, f64)> = priced
-        .iter()
-        .map(|point| (point.seconds, point.error.error))
-        .collect();
-    let mut front = (material.numbers.front)(&pairs);
-    front.sort_by(|one, other| pairs[*one].1.total_cmp(&pairs[*other].1));
-    front
+/// Indices on the front of each scene, from the smallest error upwards. Scenes are different problems:
+/// the cheap answer to one is no answer to another.
+fn fronts(material: &Material, priced: &[Priced]) -> Vec<Vec<usize>> {
+    let mut scenes: Vec<&str> = priced.iter().map(|point| point.run.scene.as_str()).collect();
+    scenes.sort();
+    scenes.dedup();
+    let front = |scene: &&str| {
+        let members: Vec<usize> = (0..priced.len())
+            .filter(|index| priced[*index].run.scene == *scene)
+            .collect();
+        let pairs: Vec<(f64, f64)> = members
+            .iter()
+            .map(|index| (priced[*index].seconds, priced[*index].error.error))
+            .collect();
+        let mut front = (material.numbers.front)(&pairs);
+        front.sort_by(|one, other| pairs[*one].1.total_cmp(&pairs[*other].1));
+        front.into_iter().map(|index| members[index]).collect()
+    };
+    scenes.iter().map(front).collect()
 }
 
 /// The front as steps: between two of its points nothing better is known than the worse of both.
-fn draw_front(panel: &mut Panel, front: &[usize], places: &[Position]) {
+fn draw_front(panel: &mut Panel, front: &[usize], priced: &[Priced], places: &[Position]) {
+    let mut groups: Vec<usize> = front.iter().map(|index| priced[*index].group).collect();
+    groups.dedup();
+    let colour = match groups.as_slice() {
+        [group] if priced.iter().any(|point| point.group != *group) => theme::style(*group).colour,
+        _ => theme::SOFT,
+    };
     let mut steps: Vec<Position> = Vec::new();
     for index in front {
         let here = places[*index];
@@ -141,7 +170,7 @@ fn draw_front(panel: &mut Panel, front: &[usize], places: &[Position]) {
     }
     panel
         .canvas
-        .path(&steps, Stroke::solid(theme::SOFT, theme::THIN_STROKE));
+        .path(&steps, Stroke::solid(colour, theme::THIN_STROKE));
     panel.canvas.take_path(&steps);
 }
 
@@ -174,7 +203,7 @@ fn draw_points(panel: &mut Panel, priced: &[Priced], places: &[Position], resolu
         panel.canvas.marker(marker, *at, colour, 1.0);
         let mut half = theme::MARKER + 20;
         if is_recommended(point.run, resolution) {
-            half = theme::MARKER * 19 / 10;
+            half = RING;
             panel
                 .canvas
                 .path(&ring(*at, half), Stroke::solid(theme::INK, theme::THIN_STROKE));
@@ -184,7 +213,12 @@ fn draw_points(panel: &mut Panel, priced: &[Priced], places: &[Position], resolu
     let Some(name) = resolution else { return };
     for (point, at) in priced.iter().zip(places) {
         if let Some(value) = selection::numeric(point.run, name) {
-            panel.label_beside(*at, &format::number(value), theme::style(point.group).colour);
+            let half = match is_recommended(point.run, resolution) {
+                true => RING,
+                false => theme::MARKER + 20,
+            };
+            let colour = theme::style(point.group).colour;
+            panel.label_beside(*at, half, &format::number(value), colour);
         }
     }
 }
@@ -201,18 +235,15 @@ fn ring(centre: Position, radius: i32) -> Vec<Position> {
     (0..=32).map(corner).collect()
 }
 
-fn notes(priced: &[Priced], against: &str, resolution: Option<&str>) -> Vec<String> {
-    let sources = distinct(priced.iter().map(|point| point.error.source.clone()).collect());
-    let source = if sources.is_empty() {
-        format::words(against)
-    } else {
-        sources.join("; ")
-    };
-    let mut notes = vec![format!("Reference: {source}.")];
+fn notes(material: &Material, priced: &[Priced], against: &str, resolution: Option<&str>) -> Vec<String> {
+    let sources = priced.iter().map(|point| point.error.source.clone()).collect();
+    let mut notes = vec![format!("Reference {}.", cited(against, &[], "", sources))];
     if let Some(name) = resolution {
-        notes.push(format!("Numbers at the points: {}.", format::words(name)));
-        if priced.iter().any(|point| is_recommended(point.run, resolution)) {
-            notes.push("Ringed: the recommended resolution.".to_owned());
+        notes.push(format!("Numbers at the points: {}.", format::title_words(name)));
+        let ringed = priced.iter().find(|point| is_recommended(point.run, resolution));
+        if let Some(value) = ringed.and_then(|point| point.run.parameter(name)) {
+            let value = selection::named(material.study, name, &value);
+            notes.push(format!("Ringed: the recommended resolution, {value}."));
         }
     }
     notes.push("Wall time of one point; it differs from machine to machine.".to_owned());

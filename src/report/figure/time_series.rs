@@ -1,9 +1,10 @@
 //! Series over time: one line per run, the reference dashed in black.
 
 use super::super::axis::Scale;
+use super::super::canvas::Area;
 use super::super::panel::{Axis, Panel};
 use super::lines::{self, Line};
-use super::{Cell, Material, Plate, Table, distinct};
+use super::{Cell, Material, Plate, Table, cited};
 use crate::report::{ReportError, format, selection};
 use crate::store::model::{Column, Run};
 
@@ -38,24 +39,100 @@ pub fn draw(
             scale: Scale::linear(all().flat_map(|line| line.y.iter().map(|y| y * value.factor))),
         },
     );
+    let factors = (time.factor, value.factor);
     for line in all() {
-        lines::draw(&mut panel, line, (time.factor, value.factor));
+        lines::draw(&mut panel, line, factors);
     }
+    let start = start_inset(&mut panel, &drawn, all, factors);
     let mut legend = looks.legend;
+    panel.heading = looks.heading;
     let mut notes: Vec<String> = looks.note.into_iter().collect();
     if let Some(name) = against {
         legend.push(lines::reference_entry(format!(
             "reference ({})",
             format::words(name)
         )));
-        let sources = distinct(references.iter().map(|(_, source)| source.clone()).collect());
-        notes.push(format!("Dashed: {}.", sources.join("; ")));
+        let sources = references.iter().map(|(_, source)| source.clone()).collect();
+        let values: Vec<f64> = references.iter().flat_map(|(line, _)| line.y.clone()).collect();
+        notes.push(format!("Dashed: {}.", cited(name, &values, &unit, sources)));
     }
-    let title = material.title(format!("{quantity} over time"));
+    if let Some(window) = start {
+        notes.push(format!(
+            "Inset: the first {} {}.",
+            format::number(window),
+            time.label
+        ));
+    }
+    let suggested = format!("{quantity} over time");
+    let title = material.title(&suggested);
     let description = format!("{} lines of {quantity} over time.", drawn.len());
     let drawing = panel.finish(&legend, &material.id(), &title, &description)?;
     let table = table(material, of, against, &unit)?;
-    Ok(material.plate(title, drawing, notes, table))
+    Ok(material.plate(title, drawing, material.captioned(&suggested, notes), table))
+}
+
+/// Enlarges the start where it takes little of the whole time and the curves leave room below.
+/// Gives back how much time the inset shows, in displayed units.
+fn start_inset<'a, I: Iterator<Item = &'a Line>>(
+    panel: &mut Panel,
+    drawn: &'a [Line],
+    all: impl Fn() -> I,
+    factors: (f64, f64),
+) -> Option<f64> {
+    let duration = lines::largest(drawn.iter().flat_map(|line| &line.x)) * factors.0;
+    let risen = drawn.iter().map(|line| risen(line).map(|time| time * factors.0));
+    let risen = risen
+        .collect::<Option<Vec<f64>>>()?
+        .into_iter()
+        .fold(0.0, f64::max);
+    let window = round_up(2.5 * risen).filter(|window| *window <= 0.35 * duration)?;
+    let (width, height) = (
+        panel.plot.right - panel.plot.left,
+        panel.plot.bottom - panel.plot.top,
+    );
+    let left = panel.plot.left + width * 2 / 5;
+    let beyond = |x: f64| panel.across(x * factors.0) >= left - width / 10;
+    let lowest = all()
+        .flat_map(|line| line.x.iter().zip(&line.y))
+        .filter(|(x, y)| beyond(**x) && y.is_finite())
+        .fold(f64::INFINITY, |least, (_, y)| least.min(*y));
+    let plot = Area {
+        left,
+        right: panel.plot.right - width / 24,
+        top: panel.up(lowest * factors.1).max(panel.plot.top) + height / 7,
+        bottom: panel.plot.bottom - height / 7,
+    };
+    if plot.bottom - plot.top < height * 2 / 5 {
+        return None;
+    }
+    let shown = all().flat_map(|line| line.x.iter().zip(&line.y));
+    let shown = shown.filter(|(x, _)| **x * factors.0 <= window);
+    let up = Scale::linear(shown.map(|(_, y)| y * factors.1)).with_at_most(6);
+    let across = Scale::tight([0.0, window]).with_at_most(5);
+    panel.inset(plot, across, up, |inner| {
+        for line in all() {
+            lines::draw(inner, line, factors);
+        }
+    });
+    Some(window)
+}
+
+/// When a curve that rises from zero comes to nine tenths of its last value [s].
+fn risen(line: &Line) -> Option<f64> {
+    let last = *line.y.last()?;
+    let first = *line.y.first()?;
+    if last.is_nan() || last <= 0.0 || first.abs() > 0.1 * last {
+        return None;
+    }
+    let reached = line.x.iter().zip(&line.y).find(|(_, y)| **y >= 0.9 * last);
+    reached.map(|(time, _)| *time)
+}
+
+/// The next 1, 2 or 5 times a power of ten.
+fn round_up(value: f64) -> Option<f64> {
+    let power = 10f64.powf(value.log10().floor());
+    let round = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * power);
+    round.into_iter().find(|round| *round >= value * 0.999)
 }
 
 fn series<'a>(run: &'a Run, of: &str) -> Result<(&'a Column, &'a Column), ReportError> {

@@ -293,7 +293,8 @@ impl Reader<'_, '_> {
                     self.observable("of", of, &[Series]);
                 }
                 if let Some(against) = &spec.against {
-                    self.reference(against, spec.of.0.first());
+                    // A scalar reference is drawn as a level: where the series ought to end.
+                    self.reference(against, None);
                 }
                 let group = spec.caption.group.clone();
                 (
