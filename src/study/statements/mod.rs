@@ -293,7 +293,7 @@ impl Reader<'_, '_> {
                     self.observable("of", of, &[Series]);
                 }
                 if let Some(against) = &spec.against {
-                    self.reference(against, spec.of.0.first());
+                    self.level(against, spec.of.0.first());
                 }
                 let group = spec.caption.group.clone();
                 (
