@@ -2,8 +2,8 @@
 
 use super::setup::{Settling, isolated_speed};
 use super::{
-    Coupling, Description, Fluid, Hydrostatics, PorosityPath, Scene, SelfDisturbance, SharpeningChoice, Slip,
-    SoundSpeed, SphFluid, Start, StressDensity,
+    Coupling, Description, Drag, Fluid, Hydrostatics, PorosityPath, Scene, SelfDisturbance, SharpeningChoice,
+    Slip, SoundSpeed, SphFluid, Start, StressDensity,
 };
 use crate::fluid::FluidParticles;
 
@@ -71,18 +71,36 @@ fn numbers(settling: &Settling, dt: f64, description: &mut Description) {
 }
 
 fn grains_in_words(settling: &Settling, description: &mut Description) {
-    let law = format!("{:?}", settling.drag);
+    let law = match settling.drag {
+        Drag::Stokes => "Stokes drag",
+        Drag::Dallavalle => "Dallavalle drag",
+        Drag::SchillerNaumann => "Schiller–Naumann drag",
+        Drag::DiFelice => "Di Felice drag: Dallavalle times a power of the porosity",
+        Drag::CoulsonRichardson => "Coulson–Richardson drag",
+    };
     description.active.push(format!(
-        "drag law {law} on the superficial slip, integrated exactly over each step"
+        "{law}, on the superficial slip, integrated exactly over each step"
     ));
     match settling.block {
-        Some(block) => description.active.push(format!(
-            "rigid block of {} × {} × {} grains sharing the mean force{}",
-            block.grains_per_side,
-            block.grains_per_side,
-            block.layers,
-            if block.held { ", held in place" } else { "" }
-        )),
+        Some(block) => {
+            let held = if block.held { ", held in place" } else { "" };
+            description
+                .active
+                .push(format!("rigid block of grains that share the mean force{held}"));
+            description.numbers.extend([
+                (
+                    "grains along a side".to_owned(),
+                    f64::from(block.grains_per_side),
+                    "1",
+                ),
+                ("layers of grains".to_owned(), f64::from(block.layers), "1"),
+                (
+                    "thickness of the block".to_owned(),
+                    settling.thickness(block),
+                    "m",
+                ),
+            ]);
+        }
         None => description.active.push("one grain released from rest".to_owned()),
     }
     description.left_out.extend([

@@ -61,7 +61,7 @@ pub fn layers<L: DragLaw>(simulation: &Simulation<L>, layers: usize) -> Vec<Tabl
     let GrainPorosity::Known(porosity) = &simulation.rules.porosity else {
         return Vec::new();
     };
-    if layers == 0 || simulation.report.grain_slip.is_empty() {
+    if layers == 0 {
         return Vec::new();
     }
     let grains = &simulation.grains.position;
@@ -72,6 +72,7 @@ pub fn layers<L: DragLaw>(simulation: &Simulation<L>, layers: usize) -> Vec<Tabl
             .map(|layer| layer.iter().sum::<f64>() / layer.len() as f64)
             .collect()
     };
+    let (slip, drag): (Vec<f64>, Vec<f64>) = (0..grains.len()).map(|i| simulation.slip_and_drag(i)).unzip();
     let heights = mean(&grains.iter().map(|x| x.z).collect::<Vec<_>>());
     let table = |name, unit, values: &[f64]| Table {
         name,
@@ -90,7 +91,7 @@ pub fn layers<L: DragLaw>(simulation: &Simulation<L>, layers: usize) -> Vec<Tabl
     };
     vec![
         table("grain_porosity", "1", porosity),
-        table("grain_slip", "m/s", &simulation.report.grain_slip),
-        table("grain_drag", "N", &simulation.report.grain_drag),
+        table("grain_slip", "m/s", &slip),
+        table("grain_drag", "N", &drag),
     ]
 }

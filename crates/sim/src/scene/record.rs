@@ -102,8 +102,10 @@ impl Recorder {
     pub fn after<L: DragLaw>(&mut self, simulation: &Simulation<L>, step: u64, dt: f64) {
         if self.auditing {
             let outside = simulation.external_force() + simulation.fluid.wall_force();
-            let residual =
-                simulation.momentum(dt) - self.momentum_before - outside * dt - simulation.damper_impulse();
+            let residual = simulation.momentum(dt)
+                - self.momentum_before
+                - outside * dt
+                - simulation.numerical_and_contact_impulse();
             let exchanged = simulation.report.impulse.max(f64::MIN_POSITIVE);
             self.momentum_error = self.momentum_error.max(residual.norm() / exchanged);
             let fastest = simulation
@@ -131,8 +133,8 @@ impl Recorder {
             disturbance: report.sampled,
             own_flow: report.own_flow,
             height: simulation.grains.position[0].z,
-            tracked_slip: self.tracked.map(|i| report.grain_slip[i]),
-            tracked_drag: self.tracked.map(|i| report.grain_drag[i]),
+            tracked_slip: self.tracked.map(|i| simulation.slip_and_drag(i).0),
+            tracked_drag: self.tracked.map(|i| simulation.slip_and_drag(i).1),
             momentum_error: self.momentum_error,
         }
     }
