@@ -87,7 +87,8 @@ impl Reader<'_, '_> {
 
     /// Checks that a reference exists that can be drawn beside a series: a curve, or a value as a level.
     pub(super) fn level(&mut self, name: &str, of: Option<&String>) {
-        let is_value = |(known, kind): &(&str, ObservableKind)| *known == name && *kind == ObservableKind::Scalar;
+        let is_value =
+            |(known, kind): &(&str, ObservableKind)| *known == name && *kind == ObservableKind::Scalar;
         if !REFERENCES.iter().any(is_value) {
             self.reference(name, of);
         }
