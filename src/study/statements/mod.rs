@@ -293,8 +293,7 @@ impl Reader<'_, '_> {
                     self.observable("of", of, &[Series]);
                 }
                 if let Some(against) = &spec.against {
-                    // A scalar reference is drawn as a level: where the series ought to end.
-                    self.reference(against, None);
+                    self.level(against, spec.of.0.first());
                 }
                 let group = spec.caption.group.clone();
                 (

@@ -85,6 +85,15 @@ impl Reader<'_, '_> {
         }
     }
 
+    /// Checks that a reference exists that can be drawn beside a series: a curve, or a value as a level.
+    pub(super) fn level(&mut self, name: &str, of: Option<&String>) {
+        let is_value =
+            |(known, kind): &(&str, ObservableKind)| *known == name && *kind == ObservableKind::Scalar;
+        if !REFERENCES.iter().any(is_value) {
+            self.reference(name, of);
+        }
+    }
+
     /// Checks that a reference exists, and is a curve exactly when the observable is one.
     pub(super) fn reference(&mut self, name: &str, of: Option<&String>) {
         let works = self.context.works.values();
