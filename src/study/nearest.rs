@@ -11,12 +11,22 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, candidate)| candidate)
 }
 
-/// `did you mean …?` where a name is near, else every name there is.
+/// Names an advice lists at most.
+const LISTED: usize = 12;
+
+/// `did you mean …?` where a name is near, else the names there are, or the first of many.
 pub fn advice(word: &str, candidates: &[&str]) -> String {
     match nearest(word, candidates.iter().copied()) {
         Some(name) => format!("did you mean `{name}`?"),
         None if candidates.is_empty() => "there is none to choose from".to_owned(),
-        None => format!("known: {}", candidates.join(", ")),
+        None if candidates.len() <= LISTED => format!("known: {}", candidates.join(", ")),
+        None => {
+            let first = candidates[..LISTED].join(", ");
+            format!(
+                "known: {first} and {} more; `kynch explain` lists them",
+                candidates.len() - LISTED
+            )
+        }
     }
 }
 

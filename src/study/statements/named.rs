@@ -90,7 +90,9 @@ impl Reader<'_, '_> {
         let is_value =
             |(known, kind): &(&str, ObservableKind)| *known == name && *kind == ObservableKind::Scalar;
         if !REFERENCES.iter().any(is_value) {
-            self.reference(name, of);
+            // An unknown name may have meant either kind.
+            let known = REFERENCES.iter().any(|(known, _)| *known == name);
+            self.reference(name, of.filter(|_| known));
         }
     }
 

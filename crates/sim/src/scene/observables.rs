@@ -47,6 +47,30 @@ const ALWAYS: &[Row] = &[
 
 const PARTICLES: &[Row] = &[
     (
+        "terminal_slip",
+        "m/s",
+        Scalar,
+        "mean superficial slip in the terminal window, upward positive",
+    ),
+    (
+        "terminal_drag",
+        "N",
+        Scalar,
+        "mean drag on a grain in the terminal window",
+    ),
+    (
+        "terminal_stress_force",
+        "N",
+        Scalar,
+        "mean force of pressure and viscous stress on a grain in the window",
+    ),
+    (
+        "terminal_fluid_acceleration",
+        "m/s²",
+        Scalar,
+        "acceleration of a grain by the fluid in the window",
+    ),
+    (
         "sound_speed",
         "m/s",
         Scalar,
@@ -137,6 +161,12 @@ const SPHERE: &[Row] = &[
 ];
 
 const BLOCK: &[Row] = &[
+    (
+        "plateau_porosity",
+        "1",
+        Scalar,
+        "porosity of the fluid at the block's middle height at the end",
+    ),
     (
         "slip_velocity_1",
         "m/s",

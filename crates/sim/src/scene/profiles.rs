@@ -56,6 +56,17 @@ pub fn fluid<L: DragLaw>(simulation: &Simulation<L>) -> Vec<Table> {
     ]
 }
 
+/// Mean porosity [-] of the fluid particles within a spacing of the middle of the grains.
+pub fn plateau_porosity<L: DragLaw>(simulation: &Simulation<L>) -> f64 {
+    let (fluid, grains) = (&simulation.fluid, &simulation.grains.position);
+    let middle = grains.iter().map(|x| x.z).sum::<f64>() / grains.len() as f64;
+    let near = |a: &usize| (fluid.position[*a].z - middle).abs() < fluid.numerics.spacing;
+    let (sum, count) = (0..fluid.len()).filter(near).fold((0.0, 0.0), |(sum, count), a| {
+        (sum + fluid.porosity[a], count + 1.0)
+    });
+    sum / count
+}
+
 /// Means over each horizontal layer of grains: the porosity they see, slip and drag.
 pub fn layers<L: DragLaw>(simulation: &Simulation<L>, layers: usize) -> Vec<Table> {
     let GrainPorosity::Known(porosity) = &simulation.rules.porosity else {

@@ -12,6 +12,18 @@ const ROWS: u64 = 600;
 /// Steps between momentum audits.
 const AUDIT_INTERVAL: u64 = 20;
 
+/// A quantity that is averaged over the terminal window: name, unit, value.
+type Windowed = (&'static str, &'static str, fn(&Sample) -> f64);
+
+const WINDOWED: [Windowed; 4] = [
+    ("terminal_slip", "m/s", |sample| sample.slip),
+    ("terminal_drag", "N", |sample| sample.drag),
+    ("terminal_stress_force", "N", |sample| sample.stress),
+    ("terminal_fluid_acceleration", "m/s²", |sample| {
+        sample.fluid_acceleration
+    }),
+];
+
 /// A row of the time series.
 #[derive(Clone, Debug, Default)]
 pub struct Sample {
@@ -36,7 +48,9 @@ pub struct Recorder {
     window: (f64, f64),
     momentum_before: Vec3,
     auditing: bool,
-    momentum_error: f64,
+    /// Largest momentum residual of an audited step and largest impulse exchanged in a step [N s].
+    residual: f64,
+    exchanged: f64,
     spurious: f64,
     scalars: Vec<Scalar>,
     relaxation: f64,
@@ -62,12 +76,15 @@ impl Recorder {
             tracked: [0, count / 3, 2 * count / 3, count - 1],
             samples: vec![Sample {
                 height: simulation.grains.position[0].z,
+                fluid_acceleration: (settling.mass() * settling.gravity - simulation.grains.weight)
+                    / simulation.grains.mass,
                 ..Sample::default()
             }],
             window: terminal_window(settling, Some(sound)),
             momentum_before: Vec3::zeros(),
             auditing: false,
-            momentum_error: 0.0,
+            residual: 0.0,
+            exchanged: 0.0,
             spurious: 0.0,
             relaxation: settling.relaxation_time(),
             buoyancy: settling.mass() * settling.gravity - simulation.grains.weight,
@@ -100,14 +117,14 @@ impl Recorder {
 
     /// After a step: audit and sample.
     pub fn after<L: DragLaw>(&mut self, simulation: &Simulation<L>, step: u64, dt: f64) {
+        self.exchanged = self.exchanged.max(simulation.report.impulse);
         if self.auditing {
             let outside = simulation.external_force() + simulation.fluid.wall_force();
             let residual = simulation.momentum(dt)
                 - self.momentum_before
                 - outside * dt
                 - simulation.numerical_and_contact_impulse();
-            let exchanged = simulation.report.impulse.max(f64::MIN_POSITIVE);
-            self.momentum_error = self.momentum_error.max(residual.norm() / exchanged);
+            self.residual = self.residual.max(residual.norm());
             let fastest = simulation
                 .fluid
                 .velocity
@@ -119,6 +136,11 @@ impl Recorder {
         if (step + 1).is_multiple_of(self.every) {
             self.samples.push(self.sample(simulation));
         }
+    }
+
+    /// Momentum not closed in a step over the impulse grains and fluid exchange in one [-].
+    fn momentum_error(&self) -> f64 {
+        self.residual / self.exchanged.max(f64::MIN_POSITIVE)
     }
 
     fn sample<L: DragLaw>(&self, simulation: &Simulation<L>) -> Sample {
@@ -135,12 +157,13 @@ impl Recorder {
             height: simulation.grains.position[0].z,
             tracked_slip: self.tracked.map(|i| simulation.slip_and_drag(i).0),
             tracked_drag: self.tracked.map(|i| simulation.slip_and_drag(i).1),
-            momentum_error: self.momentum_error,
+            momentum_error: self.momentum_error(),
         }
     }
 
     /// Everything watched, as an outcome.
     pub fn finish<L: DragLaw>(mut self, simulation: &Simulation<L>) -> Outcome {
+        let error = self.momentum_error();
         let mut push = |name, unit, value| self.scalars.push(Scalar { name, unit, value });
         let times: Vec<f64> = self.samples.iter().map(|sample| sample.time).collect();
         let velocity: Vec<f64> = self.samples.iter().map(|sample| sample.velocity).collect();
@@ -149,10 +172,23 @@ impl Recorder {
             push("terminal_velocity_drift", "m/s", drift);
         }
         if simulation.rules.two_way {
-            push("momentum_error", "1", self.momentum_error);
+            push("momentum_error", "1", error);
+        }
+        for (name, unit, value) in WINDOWED {
+            let values: Vec<f64> = self.samples.iter().map(value).collect();
+            if let Some((mean, _)) = window_mean(&times, &values, self.window) {
+                push(name, unit, mean);
+            }
         }
         push("spurious_velocity", "m/s", self.spurious);
         push("overlap", "1", simulation.report.overlap);
+        if !self.isolated {
+            push(
+                "plateau_porosity",
+                "1",
+                super::profiles::plateau_porosity(simulation),
+            );
+        }
         if self.isolated {
             let largest = self.samples.iter().map(|s| s.velocity).fold(0.0, f64::max);
             let settled = || {
@@ -164,8 +200,11 @@ impl Recorder {
                 .map(|s| (s.disturbance - s.own_flow).abs())
                 .fold(0.0, f64::max);
             let wake = settled().map(|s| s.disturbance.abs()).fold(0.0, f64::max);
-            push("disturbance_share", "1", wake / largest);
-            if self.samples.iter().any(|sample| sample.own_flow != 0.0) {
+            let corrected = self.samples.iter().any(|sample| sample.own_flow != 0.0);
+            if wake > 0.0 {
+                push("disturbance_share", "1", wake / largest);
+            }
+            if wake > 0.0 && corrected {
                 push("self_disturbance_error", "1", gap / wake);
             }
         }

@@ -18,7 +18,8 @@ const ROWS: usize = 600;
 pub fn run<L: DragLaw>(settling: &Settling, law: L, control: &Control) -> Result<Outcome, Box<Failure>> {
     let (dt, steps) = settling.steps();
     let start = settling.positions()[0].z;
-    let mut rows = vec![[0.0, 0.0, start, 0.0, 0.0, 0.0]];
+    let buoyancy = settling.mass() * settling.gravity - settling.excess_weight();
+    let mut rows = vec![[0.0, 0.0, start, 0.0, 0.0, buoyancy / settling.mass()]];
     let (mut velocity, mut height) = (Vec3::zeros(), start);
     let held = settling.block.is_some_and(|block| block.held);
     let every = (steps as usize).div_ceil(ROWS);
@@ -49,7 +50,6 @@ pub fn run<L: DragLaw>(settling: &Settling, law: L, control: &Control) -> Result
         }
         if (step as usize).is_multiple_of(every) {
             let drag = -beta * velocity.z;
-            let buoyancy = settling.mass() * settling.gravity - settling.excess_weight();
             let slip = superficial(settling, -velocity.z);
             rows.push([
                 step as f64 * dt,

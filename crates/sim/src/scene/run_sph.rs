@@ -15,7 +15,7 @@ use crate::math::Vec3;
 use crate::outcome::{Control, Failure, FailureKind, Outcome};
 use crate::simulation::{CouplingRules, GrainPorosity, RigidGrains, Simulation, SlipRule};
 
-/// χ of the bulk viscosity, where no artificial viscosity damps compression.
+/// χ of the bulk viscosity that damps compression; the step's limit counts on it.
 const BULK_DAMPING: f64 = 0.1;
 /// Overlap over diameter beyond which a run has diverged.
 const OVERLAP_LIMIT: f64 = 0.05;
@@ -153,11 +153,8 @@ fn numerics(settling: &Settling, sph: &SphFluid, gravity: f64) -> Numerics {
             medium.viscosity
         },
         artificial: scheme.artificial_viscosity.unwrap_or(0.0) + real,
-        bulk: if scheme.artificial_viscosity.is_some() {
-            0.0
-        } else {
-            BULK_DAMPING
-        },
+        // What the artificial viscosity leaves to damp.
+        bulk: (BULK_DAMPING - scheme.artificial_viscosity.unwrap_or(0.0)).max(0.0),
         lucy: scheme.kernel == KernelChoice::Lucy,
         gravity,
         continuity: match (scheme.porosity, scheme.slip) {
@@ -227,6 +224,7 @@ fn rules<L: DragLaw>(
         scale: settling.scale(),
         slip,
         porosity,
+        buoyancy: settling.mass() * settling.gravity - grains.weight,
         intrinsic_stress: scheme.stress_density == StressDensity::Intrinsic,
         two_way: settling
             .sphere

@@ -85,12 +85,17 @@ impl<L: DragLaw> Simulation<L> {
         let porosity = raw.clamp(POROSITY_FLOOR, 1.0);
         let scaled = self.rules.slip == SlipRule::PorosityTimesInterstitial;
         let share = if scaled { porosity } else { 1.0 };
+        // The published defect overrates the whole stress by 1/ε, the part carried analytically too.
+        let excess = match self.rules.intrinsic_stress {
+            true => self.rules.buoyancy * (1.0 / sample.porosity() - 1.0),
+            false => 0.0,
+        };
         let flow = sample.velocity() - own.0;
         let slip = share * (flow - self.grains.velocity).norm();
         GrainForce {
             beta: share * self.rules.scale.coefficient(&self.rules.law, slip, porosity),
             flow,
-            stress: (sample.stress() - own.1) * self.grains.volume,
+            stress: (sample.stress() - own.1) * self.grains.volume + Vec3::new(0.0, 0.0, excess),
             sampled: sample.velocity(),
         }
     }

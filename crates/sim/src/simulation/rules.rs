@@ -53,6 +53,8 @@ pub struct CouplingRules<L> {
     pub porosity: GrainPorosity,
     /// ϱ in place of ρ = ε ϱ in the stress on a grain: a published defect.
     pub intrinsic_stress: bool,
+    /// Buoyancy of one grain that is carried analytically [N].
+    pub buoyancy: f64,
     /// Whether the fluid feels the grains.
     pub two_way: bool,
     pub own_flow: Option<SelfInducedFlow>,
