@@ -8,10 +8,13 @@
 //! ε_a = 1 − Σ_i V_i W(r_ai, h_x)
 //! ```
 
+use super::Weights;
 use crate::fluid::FluidParticles;
 use crate::fluid::kernel::{Kernel, Sharpening, WendlandC2};
 use crate::math::Vec3;
-use crate::neighbours::{Rows, images};
+#[cfg(target_arch = "x86_64")]
+use crate::neighbours::gather_avx512;
+use crate::neighbours::{LANES, Lanes, Record, Rows, gather, images};
 
 /// What a grain may sample from a fluid particle: a velocity [m/s], a force density [N/m³] and the
 /// porosity [-]. One cache line.
@@ -50,12 +53,22 @@ pub struct Exchange {
     pub solids: Vec<f64>,
     /// Its rate of change along the particle [1/s].
     pub solids_rate: Vec<f64>,
-    starts: Vec<u32>,
-    sources: Vec<u32>,
-    weights: Vec<f64>,
+    /// Rows of weights and candidates follow this order of the grains, cell by cell, so that
+    /// consecutive rows share their fluid particles.
+    order: Vec<u32>,
+    /// Row of each grain.
+    row_of: Vec<u32>,
+    weights: Weights,
     candidates: Rows,
     /// Source and offset of every candidate point.
     origins: Vec<(u32, Vec3)>,
+    /// The sources alone, and one for the padding.
+    source_of: Vec<u32>,
+    /// The candidate points as the refresh reads them: x, y, z, u_x, u_y, u_z, V. One more without
+    /// volume and far away stands behind them for the padding.
+    points: Vec<Record>,
+    /// Solids fraction and its rate under way, side by side.
+    sums: Vec<[f64; 2]>,
     /// Relative displacement since the candidates were collected is bounded by these anchors.
     fluid_anchor: Vec<Vec3>,
     grain_anchor: Vec<Vec3>,
@@ -69,11 +82,14 @@ impl Exchange {
             sharpening,
             solids: vec![0.0; fluid.len()],
             solids_rate: vec![0.0; fluid.len()],
-            starts: Vec::new(),
-            sources: Vec::new(),
-            weights: Vec::new(),
+            order: Vec::new(),
+            row_of: Vec::new(),
+            weights: Weights::default(),
             candidates: Rows::default(),
             origins: Vec::new(),
+            source_of: Vec::new(),
+            points: Vec::new(),
+            sums: Vec::new(),
             fluid_anchor: Vec::new(),
             grain_anchor: Vec::new(),
             pairs: 0,
@@ -87,41 +103,92 @@ impl Exchange {
         if self.outgrown(fluid, grains) {
             self.collect(fluid, grains);
         }
-        self.solids.fill(0.0);
-        self.solids_rate.fill(0.0);
-        self.starts.clear();
-        self.starts.push(0);
-        self.sources.clear();
-        self.weights.clear();
+        self.write_points(fluid, velocity);
+        self.weights.clear(self.candidates.len_padded());
+        self.sums.clear();
+        self.sums.resize(fluid.len(), [0.0; 2]);
+        self.weigh(grains, volume);
+        for (a, [solids, rate]) in self.sums.iter().enumerate() {
+            self.solids[a] = *solids;
+            self.solids_rate[a] = *rate;
+        }
+        self.pairs += self.weights.members() as u64;
+    }
+
+    /// Velocities are written relative to the grains.
+    fn write_points(&mut self, fluid: &FluidParticles, velocity: Vec3) {
+        self.points.clear();
+        self.points.extend(self.origins.iter().map(|&(source, shift)| {
+            let a = source as usize;
+            let (x, u) = (fluid.position[a] + shift, fluid.velocity[a] - velocity);
+            Record([x.x, x.y, x.z, u.x, u.y, u.z, fluid.volume(a), 0.0])
+        }));
+        let far = -1e3 * (1.0 + fluid.width);
+        self.points.push(Record([far, far, far, 0.0, 0.0, 0.0, 0.0, 0.0]));
+    }
+
+    fn weigh(&mut self, grains: &[Vec3], volume: f64) {
+        #[cfg(target_arch = "x86_64")]
+        {
+            if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
+                // SAFETY: the features were just detected.
+                return unsafe { self.weigh_avx512(grains, volume) };
+            }
+            if is_x86_feature_detected!("avx2") {
+                // SAFETY: the feature was just detected.
+                return unsafe { self.weigh_avx2(grains, volume) };
+            }
+        }
+        self.weigh_lanes(grains, volume, gather);
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+    fn weigh_avx512(&mut self, grains: &[Vec3], volume: f64) {
+        self.weigh_lanes(grains, volume, |points, members| gather_avx512(points, members));
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    fn weigh_avx2(&mut self, grains: &[Vec3], volume: f64) {
+        self.weigh_lanes(grains, volume, gather);
+    }
+
+    /// Weights and solids of eight candidates at a time. Lanes never mix before the end of a row.
+    #[inline(always)]
+    fn weigh_lanes(
+        &mut self,
+        grains: &[Vec3],
+        volume: f64,
+        gather: impl Fn(&[Record], &[u32; LANES]) -> [Lanes; 8],
+    ) {
         let per_length = 1.0 / self.length;
         let (unit, slope_unit) = (volume * per_length.powi(3), volume * per_length.powi(5));
-        for (i, grain) in grains.iter().enumerate() {
-            let first = self.weights.len();
-            let mut norm = 0.0;
-            for &member in self.candidates.row(i) {
-                let Some(&(source, shift)) = self.origins.get(member as usize) else {
-                    break;
-                };
-                let a = source as usize;
-                let r = fluid.position[a] + shift - grain;
-                let q = r.norm() * per_length;
-                if q >= 2.0 {
-                    continue;
+        for (row, &i) in self.order.iter().enumerate() {
+            let grain = &grains[i as usize];
+            let mut norm = [0.0; LANES];
+            for members in self.candidates.row(row).as_chunks::<LANES>().0 {
+                let fields = gather(&self.points, members);
+                let (mut q, mut weight) = ([0.0; LANES], [0.0; LANES]);
+                let (mut solids, mut rate) = ([0.0; LANES], [0.0; LANES]);
+                for lane in 0..LANES {
+                    let r = [0, 1, 2].map(|axis| fields[axis][lane] - grain[axis]);
+                    let approach = r[0] * fields[3][lane] + r[1] * fields[4][lane] + r[2] * fields[5][lane];
+                    q[lane] = (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]).sqrt() * per_length;
+                    solids[lane] = unit * WendlandC2.value(q[lane]);
+                    rate[lane] = slope_unit * WendlandC2.slope(q[lane]) * approach;
+                    weight[lane] = fields[6][lane] * self.sharpening.value(q[lane]);
+                    norm[lane] += weight[lane];
                 }
-                self.solids[a] += unit * WendlandC2.value(q);
-                self.solids_rate[a] +=
-                    slope_unit * WendlandC2.slope(q) * r.dot(&(fluid.velocity[a] - velocity));
-                let weight = fluid.volume(a) * self.sharpening.value(q);
-                norm += weight;
-                self.sources.push(source);
-                self.weights.push(weight);
+                for lane in 0..LANES {
+                    let source = self.source_of[members[lane] as usize];
+                    let sum = &mut self.sums[source as usize];
+                    *sum = [sum[0] + solids[lane], sum[1] + rate[lane]];
+                    self.weights.offer(source, weight[lane], q[lane] < 2.0);
+                }
             }
-            self.weights[first..]
-                .iter_mut()
-                .for_each(|weight| *weight /= norm);
-            self.starts.push(self.weights.len() as u32);
+            self.weights.close(norm.iter().sum());
         }
-        self.pairs += self.weights.len() as u64;
     }
 
     fn outgrown(&self, fluid: &FluidParticles, grains: &[Vec3]) -> bool {
@@ -161,44 +228,71 @@ impl Exchange {
             .iter()
             .map(|(source, shift)| fluid.position[*source as usize] + shift)
             .collect();
-        self.candidates = Rows::new(grains, &points, reach, u32::MAX);
+        self.source_of = self
+            .origins
+            .iter()
+            .map(|(source, _)| *source)
+            .chain([0])
+            .collect();
+        self.order = cell_order(grains, self.length);
+        self.row_of = vec![0; grains.len()];
+        for (row, &i) in self.order.iter().enumerate() {
+            self.row_of[i as usize] = row as u32;
+        }
+        let targets: Vec<Vec3> = self.order.iter().map(|&i| grains[i as usize]).collect();
+        self.candidates = Rows::new(&targets, &points, reach, points.len() as u32);
         self.fluid_anchor = fluid.position.clone();
         self.grain_anchor = grains.to_vec();
     }
 
-    fn row(&self, grain: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
-        let range = self.starts[grain] as usize..self.starts[grain + 1] as usize;
-        self.sources[range.clone()]
-            .iter()
-            .zip(&self.weights[range])
-            .map(|(source, weight)| (*source as usize, *weight))
-    }
-
     /// Weighted mean of a field around a grain.
     pub fn sample(&self, grain: usize, fields: &[Field]) -> Field {
-        let mut mean = Field::default();
-        for (a, weight) in self.row(grain) {
-            for (sum, value) in mean.0.iter_mut().zip(&fields[a].0) {
-                *sum += weight * value;
-            }
+        self.weights.sample(self.row_of[grain] as usize, fields)
+    }
+
+    /// Weighted means of a field around every grain.
+    pub fn sample_all(&self, fields: &[Field]) -> Vec<Field> {
+        let mut means = vec![Field::default(); self.order.len()];
+        for (row, &grain) in self.order.iter().enumerate() {
+            means[grain as usize] = self.weights.sample(row, fields);
         }
-        mean
+        means
     }
 
     /// Adds an impulse [N s] around a grain to the impulses of the fluid particles.
     pub fn spread(&self, grain: usize, impulse: Vec3, impulses: &mut [[f64; 4]]) {
-        let impulse = [impulse.x, impulse.y, impulse.z, 0.0];
-        for (a, weight) in self.row(grain) {
-            for (sum, value) in impulses[a].iter_mut().zip(&impulse) {
-                *sum += weight * value;
-            }
+        self.weights
+            .spread(self.row_of[grain] as usize, impulse, impulses);
+    }
+
+    /// Adds the impulse [N s] of every grain to the impulses of the fluid particles.
+    pub fn spread_all(&self, given: &[Vec3], impulses: &mut [[f64; 4]]) {
+        for (row, &grain) in self.order.iter().enumerate() {
+            self.weights.spread(row, given[grain as usize], impulses);
         }
     }
 
     /// Σ_a w_a²/V_a [1/m³]: how much of a force density it hands out a grain samples back.
     pub fn echo(&self, grain: usize, fluid: &FluidParticles) -> f64 {
-        self.row(grain)
-            .map(|(a, weight)| weight * weight / fluid.volume(a))
+        let (sources, shares) = self.weights.row(self.row_of[grain] as usize);
+        (sources.iter().zip(shares))
+            .map(|(source, share)| share * share / fluid.volume(*source as usize))
             .sum()
     }
 }
+
+/// Indices of the grains in strips along x of the given width [m], each from end to end.
+fn cell_order(grains: &[Vec3], width: f64) -> Vec<u32> {
+    let mut order: Vec<u32> = (0..grains.len() as u32).collect();
+    let strip = |x: &Vec3| [(x.z / width).floor(), (x.y / width).floor(), x.x];
+    order.sort_by(|&i, &j| {
+        let (a, b) = (strip(&grains[i as usize]), strip(&grains[j as usize]));
+        (a.iter().zip(&b))
+            .map(|(a, b)| a.total_cmp(b))
+            .fold(std::cmp::Ordering::Equal, |order, next| order.then(next))
+    });
+    order
+}
+
+#[cfg(test)]
+mod tests;

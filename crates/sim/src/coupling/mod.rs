@@ -5,9 +5,11 @@ mod disturbance;
 mod exchange;
 mod grain_porosity;
 mod layers;
+mod weights;
 
 pub use breathing::Breathing;
 pub use disturbance::{Basin, SelfInducedFlow};
 pub use exchange::{Exchange, Field};
 pub use grain_porosity::grain_porosity;
 pub use layers::Layers;
+pub use weights::Weights;

@@ -80,6 +80,11 @@ impl Rows {
         &self.members[self.starts[target] as usize..self.starts[target + 1] as usize]
     }
 
+    /// Members of all rows, padding included.
+    pub fn len_padded(&self) -> usize {
+        self.members.len()
+    }
+
     /// Number of targets.
     pub fn len(&self) -> usize {
         self.starts.len().saturating_sub(1)
