@@ -1,44 +1,209 @@
-//! Speed of the fluid step: prints lines `BENCH <name> <value> <unit>`.
+//! Speed of the fluid step, alone and coupled: prints lines `BENCH <name> <value> <unit>`.
+//!
+//! Rates are steps of fluid particles per second on one core, the median of several batches. The
+//! shares say where a coupled step spends its time; they come from a second, instrumented pass.
 
+use std::f64::consts::PI;
 use std::time::Instant;
 
+use kynch_sim::contact::LinearSpringDashpot;
+use kynch_sim::coupling::{Basin, Breathing, Exchange, Field, SelfInducedFlow, grain_porosity};
+use kynch_sim::drag::{DiFelice, DragScale};
+use kynch_sim::fluid::kernel::Sharpening;
 use kynch_sim::fluid::{Continuity, EquationOfState, FluidParticles, Numerics};
+use kynch_sim::math::Vec3;
+use kynch_sim::simulation::{CouplingRules, GrainPorosity, RigidGrains, Simulation, SlipRule};
+
+const WIDTH: f64 = 4e-3;
+/// 20 × 20 × 33 particles.
+const HEIGHT: f64 = 6.6e-3;
+const SPACING: f64 = 2e-4;
+const DIAMETER: f64 = 1e-4;
+/// Three diameters: exchange length and porosity length alike.
+const LENGTH: f64 = 3e-4;
+const DENSITY: f64 = 1000.0;
+const VISCOSITY: f64 = 0.89e-3;
+const SOUND_SPEED: f64 = 0.94;
+/// Fluid steps between refreshes of the weights of a block, as the scene sets it.
+const BLOCK_REFRESH: u64 = 8;
+const STEP: f64 = 1e-5;
+const BATCHES: usize = 7;
+/// Grains that fill 4 × 4 × 6 mm at porosity 0.9.
+const SUSPENSION: usize = 18_335;
+
+fn main() {
+    let mut fluid = fluid();
+    let count = fluid.len();
+    fluid.sum_rates(0.0);
+    report(
+        &format!("fluid_step_{count}"),
+        rate(count, 30, || bare_step(&mut fluid)),
+    );
+
+    let mut single = coupled(vec![Vec3::new(2e-3, 2e-3, 4.8e-3)], true, 1);
+    report("fluid_step_1_grain", rate(count, 30, || single.step(STEP)));
+
+    for (name, refresh) in [
+        ("fluid_step_18335_grains", BLOCK_REFRESH),
+        ("fluid_step_18335_grains_refreshed_every_step", 1),
+    ] {
+        let mut suspension = coupled(suspension(), false, refresh);
+        let step_rate = rate(count, 16, || suspension.step(STEP));
+        report(name, step_rate);
+    }
+    shares(coupled(suspension(), false, BLOCK_REFRESH));
+}
+
+fn report(name: &str, rate: f64) {
+    println!("BENCH {name} {rate:.3e} particle-steps/s");
+}
 
 /// Median over several batches of the particle-steps per second of `step`.
 fn rate(particles: usize, steps: usize, mut step: impl FnMut()) -> f64 {
-    let mut rates: Vec<f64> = (0..7)
-        .map(|_| {
-            let start = Instant::now();
-            (0..steps).for_each(|_| step());
-            (particles * steps) as f64 / start.elapsed().as_secs_f64()
-        })
-        .collect();
-    rates.sort_by(f64::total_cmp);
-    rates[3]
+    step();
+    median(|| (particles * steps) as f64 / seconds(|| (0..steps).for_each(|_| step())))
 }
 
-fn main() {
+fn median(mut value: impl FnMut() -> f64) -> f64 {
+    let mut values: Vec<f64> = (0..BATCHES).map(|_| value()).collect();
+    values.sort_by(f64::total_cmp);
+    values[BATCHES / 2]
+}
+
+fn seconds(work: impl FnOnce()) -> f64 {
+    let start = Instant::now();
+    work();
+    start.elapsed().as_secs_f64()
+}
+
+fn fluid() -> FluidParticles {
     let numerics = Numerics {
-        spacing: 2e-4,
-        viscosity: 0.89e-3,
+        spacing: SPACING,
+        viscosity: VISCOSITY,
         artificial: 0.0,
         bulk: 0.1,
         lucy: false,
         gravity: 0.0,
         continuity: Continuity::MixtureFlux,
         state: EquationOfState {
-            density: 1000.0,
-            sound_speed: 0.94,
+            density: DENSITY,
+            sound_speed: SOUND_SPEED,
         },
     };
-    let mut fluid = FluidParticles::lattice(numerics, 4e-3, 6.6e-3);
-    let count = fluid.len();
-    fluid.sum_rates(0.0);
-    let dt = 1e-5;
-    let value = rate(count, 30, || {
-        fluid.kick_and_drift(dt);
-        fluid.sum_rates(0.5 * dt);
-        fluid.kick(dt);
-    });
-    println!("BENCH fluid_step_{count} {value:.3e} particle-steps/s");
+    FluidParticles::lattice(numerics, WIDTH, HEIGHT)
+}
+
+fn bare_step(fluid: &mut FluidParticles) {
+    fluid.kick_and_drift(STEP);
+    fluid.sum_rates(0.5 * STEP);
+    fluid.kick(STEP);
+}
+
+/// Scattered places above the floor: a low-discrepancy sequence (Roberts 2018), the same every time.
+fn suspension() -> Vec<Vec3> {
+    const BASE: f64 = 1.220_744_084_605_759_5;
+    let share = |i: usize, power: i32| (0.5 + i as f64 * BASE.powi(-power)).fract();
+    (0..SUSPENSION)
+        .map(|i| {
+            Vec3::new(
+                WIDTH * share(i, 1),
+                WIDTH * share(i, 2),
+                DIAMETER + 6e-3 * share(i, 3),
+            )
+        })
+        .collect()
+}
+
+/// Grains that fall together through the fluid, coupled as the scenes couple them.
+fn coupled(position: Vec<Vec3>, isolated: bool, refresh_interval: u64) -> Simulation<DiFelice> {
+    let volume = PI / 6.0 * DIAMETER.powi(3);
+    let fluid = fluid();
+    let sharpening = if isolated {
+        Sharpening::NONE
+    } else {
+        Sharpening::SECOND_ORDER
+    };
+    let porosity = if isolated {
+        vec![1.0]
+    } else {
+        grain_porosity(&position, volume, LENGTH, Sharpening::EDGE_NEUTRAL, WIDTH)
+    };
+    let basin = Basin {
+        width: WIDTH,
+        height: HEIGHT,
+        density: DENSITY,
+        viscosity: VISCOSITY / DENSITY,
+        smoothing: 1.5 * SPACING,
+        exchange: LENGTH,
+        sharpening,
+    };
+    let rules = CouplingRules {
+        law: DiFelice,
+        scale: DragScale {
+            diameter: DIAMETER,
+            density: DENSITY,
+            viscosity: VISCOSITY,
+        },
+        slip: if isolated {
+            SlipRule::Isolated
+        } else {
+            SlipRule::MixtureFlux
+        },
+        porosity: GrainPorosity::Known(porosity),
+        intrinsic_stress: false,
+        two_way: true,
+        own_flow: isolated.then(|| SelfInducedFlow::new(&basin, volume)),
+        breathing: Some(Breathing::new(SOUND_SPEED, HEIGHT, SPACING)),
+        floor: LinearSpringDashpot {
+            stiffness: 1.0,
+            damping: 0.0,
+        },
+        contact_steps: 20.0,
+        refresh_interval,
+    };
+    let grains = RigidGrains {
+        position,
+        velocity: Vec3::zeros(),
+        diameter: DIAMETER,
+        volume,
+        mass: 2500.0 * volume,
+        weight: 1500.0 * volume * 9.81,
+        held: false,
+    };
+    let exchange = Exchange::new(LENGTH, sharpening, &fluid, &grains.position);
+    Simulation::new(fluid, grains, exchange, rules)
+}
+
+/// Shares of a coupled step, in milliseconds per step.
+fn shares(mut simulation: Simulation<DiFelice>) {
+    let (count, grains) = (simulation.fluid.len(), simulation.grains.position.clone());
+    let volume = simulation.grains.volume;
+    let fields = vec![Field::new(Vec3::repeat(1e-3), Vec3::repeat(1.0), 0.9); count];
+    let mut impulses = vec![[0.0; 4]; count];
+    let milliseconds = |name: &str, value: f64| println!("BENCH {name} {:.3} ms/step", 1e3 * value);
+    milliseconds(
+        "share_step",
+        median(|| seconds(|| (0..8).for_each(|_| simulation.step(STEP))) / 8.0),
+    );
+    milliseconds(
+        "share_sweep",
+        median(|| seconds(|| simulation.fluid.sum_rates(0.0))),
+    );
+    let exchange = &mut simulation.exchange;
+    milliseconds(
+        "share_refresh",
+        median(|| seconds(|| exchange.refresh(&simulation.fluid, &grains, volume, Vec3::zeros())))
+            / BLOCK_REFRESH as f64,
+    );
+    let mut sum = 0.0;
+    milliseconds(
+        "share_sample",
+        median(|| seconds(|| sum += exchange.sample_all(&fields)[0].0[0])),
+    );
+    milliseconds(
+        "share_spread",
+        median(|| seconds(|| exchange.spread_all(&grains, &mut impulses))),
+    );
+    // The sums are used, so that nothing of the work can be left out.
+    assert!(sum.is_finite() && impulses[0][0].is_finite());
 }
