@@ -1,0 +1,13 @@
+//! What the simulator must show: closed forms, observed orders, conservation, failures, bit identity.
+
+mod coupled;
+mod failures;
+mod hydrostatics;
+mod momentum;
+mod orders;
+mod reproducibility;
+mod rest;
+mod scenes;
+mod settling;
+mod waves;
+mod work;
