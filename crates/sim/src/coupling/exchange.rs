@@ -245,31 +245,21 @@ impl Exchange {
         self.grain_anchor = grains.to_vec();
     }
 
+    /// All grains, cell by cell: visited in this order, neighbouring rows find their fluid particles in
+    /// the nearest cache.
+    pub fn order(&self) -> &[u32] {
+        &self.order
+    }
+
     /// Weighted mean of a field around a grain.
     pub fn sample(&self, grain: usize, fields: &[Field]) -> Field {
         self.weights.sample(self.row_of[grain] as usize, fields)
-    }
-
-    /// Weighted means of a field around every grain.
-    pub fn sample_all(&self, fields: &[Field]) -> Vec<Field> {
-        let mut means = vec![Field::default(); self.order.len()];
-        for (row, &grain) in self.order.iter().enumerate() {
-            means[grain as usize] = self.weights.sample(row, fields);
-        }
-        means
     }
 
     /// Adds an impulse [N s] around a grain to the impulses of the fluid particles.
     pub fn spread(&self, grain: usize, impulse: Vec3, impulses: &mut [[f64; 4]]) {
         self.weights
             .spread(self.row_of[grain] as usize, impulse, impulses);
-    }
-
-    /// Adds the impulse [N s] of every grain to the impulses of the fluid particles.
-    pub fn spread_all(&self, given: &[Vec3], impulses: &mut [[f64; 4]]) {
-        for (row, &grain) in self.order.iter().enumerate() {
-            self.weights.spread(row, given[grain as usize], impulses);
-        }
     }
 
     /// Σ_a w_a²/V_a [1/m³]: how much of a force density it hands out a grain samples back.
