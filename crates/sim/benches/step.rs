@@ -206,7 +206,7 @@ fn shares(mut simulation: Simulation<DiFelice>) {
             })
         }),
     );
-    let impulse = Vec3::repeat(1.0);
+    let impulse = [1.0; 4];
     milliseconds(
         "share_spread",
         median(|| {

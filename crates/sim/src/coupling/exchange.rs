@@ -256,8 +256,8 @@ impl Exchange {
         self.weights.sample(self.row_of[grain] as usize, fields)
     }
 
-    /// Adds an impulse [N s] around a grain to the impulses of the fluid particles.
-    pub fn spread(&self, grain: usize, impulse: Vec3, impulses: &mut [[f64; 4]]) {
+    /// Adds four sums of a grain, such as an impulse [N s], to those of the fluid particles around it.
+    pub fn spread(&self, grain: usize, impulse: [f64; 4], impulses: &mut [[f64; 4]]) {
         self.weights
             .spread(self.row_of[grain] as usize, impulse, impulses);
     }

@@ -4,7 +4,6 @@
 //! instruction set.
 
 use super::Field;
-use crate::math::Vec3;
 
 /// Pairs of a row summed side by side.
 const ABREAST: usize = 4;
@@ -77,8 +76,8 @@ impl Weights {
         mean(sources, shares, fields)
     }
 
-    /// Adds an impulse [N s] around a grain to the impulses of the fluid particles.
-    pub fn spread(&self, grain: usize, impulse: Vec3, impulses: &mut [[f64; 4]]) {
+    /// Adds four sums of a grain to those of the fluid particles around it.
+    pub fn spread(&self, grain: usize, impulse: [f64; 4], impulses: &mut [[f64; 4]]) {
         let (sources, shares) = self.row(grain);
         #[cfg(target_arch = "x86_64")]
         if is_x86_feature_detected!("avx2") {
@@ -103,7 +102,7 @@ fn mean_avx2(sources: &[u32], shares: &[f64], fields: &[Field]) -> Field {
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn scatter_avx2(sources: &[u32], shares: &[f64], impulse: Vec3, impulses: &mut [[f64; 4]]) {
+fn scatter_avx2(sources: &[u32], shares: &[f64], impulse: [f64; 4], impulses: &mut [[f64; 4]]) {
     scatter(sources, shares, impulse, impulses);
 }
 
@@ -133,8 +132,7 @@ fn mean(sources: &[u32], shares: &[f64], fields: &[Field]) -> Field {
 }
 
 #[inline(always)]
-fn scatter(sources: &[u32], shares: &[f64], impulse: Vec3, impulses: &mut [[f64; 4]]) {
-    let impulse = [impulse.x, impulse.y, impulse.z, 0.0];
+fn scatter(sources: &[u32], shares: &[f64], impulse: [f64; 4], impulses: &mut [[f64; 4]]) {
     for (source, share) in sources.iter().zip(shares) {
         for (sum, value) in impulses[*source as usize].iter_mut().zip(&impulse) {
             *sum += share * value;

@@ -7,7 +7,7 @@ use crate::integrator::ExactDrag;
 use crate::math::Vec3;
 
 /// What the fluid does to one grain over a step: drag β (U − v) and a force that does not depend on v.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct GrainForce {
     /// β [kg/s].
     beta: f64,
@@ -19,15 +19,30 @@ pub(super) struct GrainForce {
     sampled: Vec3,
 }
 
+impl GrainForce {
+    /// What the fluid gets back at grain velocity v is −(β U + σ) + β v: the first three numbers and,
+    /// last, β. The velocity is known only when all grains have been asked, their rows are at hand now.
+    fn reaction(&self) -> [f64; 4] {
+        let given = -(self.beta * self.flow + self.stress);
+        [given.x, given.y, given.z, self.beta]
+    }
+}
+
 impl<L: DragLaw> Simulation<L> {
     /// Grains feel the fluid over the step, the fluid gets the same impulse back.
     pub(super) fn exchange_momentum(&mut self, dt: f64) {
         self.write_fields(0.5 * dt);
         let own = self.own_flow();
         let mut forces = std::mem::take(&mut self.forces);
-        forces.clear();
-        for grain in 0..self.grains.position.len() {
-            forces.push(self.force_on(grain, own));
+        forces.resize(self.grains.position.len(), GrainForce::default());
+        self.impulses.fill([0.0; 4]);
+        for row in 0..forces.len() {
+            let grain = self.exchange.order()[row] as usize;
+            let force = self.force_on(grain, own);
+            if self.rules.two_way {
+                self.exchange.spread(grain, force.reaction(), &mut self.impulses);
+            }
+            forces[grain] = force;
         }
         let mean_velocity = self.advance_grains(&forces, dt);
         let handed = self.hand_back(&forces, mean_velocity, dt);
@@ -120,10 +135,13 @@ impl<L: DragLaw> Simulation<L> {
             .iter()
             .map(|x| x.z)
             .fold(f64::INFINITY, f64::min);
-        let fall = self.grains.velocity.norm() * dt;
+        let (end, mean) = body.advance(self.grains.velocity, dt);
+        let fall = end.norm().max(self.grains.velocity.norm()) * dt;
         if lowest > 0.5 * self.grains.diameter + 2.0 * fall {
             self.grain_steps += 1;
-            let (end, mean) = body.advance(self.grains.velocity, dt);
+            // The drift took the velocity at its start for the mean.
+            let missed = (mean - self.grains.velocity) * dt;
+            self.grains.position.iter_mut().for_each(|x| *x += missed);
             self.grains.velocity = end;
             return mean;
         }
@@ -146,7 +164,8 @@ impl<L: DragLaw> Simulation<L> {
         // The drift has moved the grains already: the sub-steps begin where it began.
         let mut z = lowest - velocity.z * dt;
         for _ in 0..parts as u64 {
-            let overlap = radius - z;
+            // Asked at the middle of the drift, the spring gives back exactly what it took.
+            let overlap = radius - (z + 0.5 * part * velocity.z);
             let push = if overlap > 0.0 {
                 bottom * self.rules.floor.force(overlap, -velocity.z)
             } else {
@@ -169,22 +188,14 @@ impl<L: DragLaw> Simulation<L> {
 
     /// Gives the fluid what the grains got, as a reaction to act over the next kicks; returns the sum.
     fn hand_back(&mut self, forces: &[GrainForce], mean_velocity: Vec3, dt: f64) -> Vec3 {
-        self.impulses.fill([0.0; 4]);
-        let mut handed = Vec3::zeros();
-        for (grain, force) in forces.iter().enumerate() {
-            let impulse = (force.beta * (force.flow - mean_velocity) + force.stress) * dt;
-            handed += impulse;
-            if self.rules.two_way {
-                self.exchange.spread(grain, -impulse, &mut self.impulses);
-            }
-        }
         if self.rules.two_way {
-            for (a, impulse) in self.impulses.iter().enumerate() {
-                let impulse = Vec3::new(impulse[0], impulse[1], impulse[2]);
-                self.fluid.reaction[a] = impulse / (self.fluid.mass[a] * dt);
+            for (a, sums) in self.impulses.iter().enumerate() {
+                let force = Vec3::new(sums[0], sums[1], sums[2]) + sums[3] * mean_velocity;
+                self.fluid.reaction[a] = force / self.fluid.mass[a];
             }
         }
-        handed
+        let given = |force: &GrainForce| force.beta * (force.flow - mean_velocity) + force.stress;
+        forces.iter().map(given).sum::<Vec3>() * dt
     }
 
     fn observe_exchange(&mut self, own: (Vec3, Vec3), mean_velocity: Vec3, handed: Vec3) {

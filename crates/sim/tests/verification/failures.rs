@@ -161,6 +161,27 @@ fn a_heavy_grain_hits_the_floor_softly_and_stays_above_it() {
 }
 
 #[test]
+fn a_grain_on_the_floor_comes_to_rest_at_the_overlap_that_carries_it() {
+    let mut scene = sphere(particles(4.0, Scheme::default()));
+    scene.release_height = 0.05;
+    scene.duration = 0.08;
+    let outcome = run_sphere(&scene);
+    let error = scalar(&outcome, "momentum_error");
+    assert!(error < 1e-11, "contacts are part of the momentum: {error:e}");
+    let last = |name| *series(&outcome, name).last().expect("rows");
+    assert!(last("velocity").abs() < 1e-6, "{:e}", last("velocity"));
+    // The spring stops the grain from its terminal speed v within 0.003 d: m v² = k (0.003 d)².
+    let speed = crate::scenes::stokes_speed(&GLASS, &WATER);
+    let excess = scene.gravity * (1.0 - WATER.density / GLASS.density);
+    let expected = excess * (0.003 * GLASS.diameter / speed).powi(2);
+    let overlap = 0.5 * GLASS.diameter - last("height");
+    assert!(
+        (overlap / expected - 1.0).abs() < 0.02,
+        "{overlap:e} against {expected:e}"
+    );
+}
+
+#[test]
 fn a_block_lands_on_the_floor_and_rests() {
     let mut scene = block(particles(4.0, Scheme::default()), 0.9, 2.4e-3);
     scene.column.height = 3.2e-3;

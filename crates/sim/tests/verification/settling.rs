@@ -48,6 +48,22 @@ fn the_start_in_still_fluid_is_exact_at_every_time() {
 }
 
 #[test]
+fn the_way_fallen_is_exact_in_still_fluid_and_in_particles_that_feel_nothing() {
+    let mut one_way = sphere(particles(4.0, Scheme::default()));
+    one_way.coupling = Coupling::OneWay;
+    let terminal = stokes_speed(&GLASS, &WATER);
+    let relaxation = GLASS.density * GLASS.diameter.powi(2) / (18.0 * WATER.viscosity);
+    for scene in [sphere(Fluid::Still(WATER)), one_way] {
+        let outcome = run_sphere(&scene);
+        let (time, height) = (series(&outcome, "time"), series(&outcome, "height"));
+        for (t, z) in time.iter().zip(height) {
+            let way = terminal * (t + relaxation * (-t / relaxation).exp_m1());
+            assert!((height[0] - z - way).abs() < 1e-6 * GLASS.diameter, "after {t} s");
+        }
+    }
+}
+
+#[test]
 fn the_start_in_particle_fluid_keeps_within_half_a_per_cent() {
     let mut scene = sphere(particles(4.0, Scheme::default()));
     scene.coupling = Coupling::OneWay;

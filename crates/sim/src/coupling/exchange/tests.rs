@@ -46,7 +46,7 @@ fn a_constant_field_is_sampled_exactly_and_an_impulse_arrives_whole() {
     let mut impulses = vec![[0.0; 4]; fluid.len()];
     let given: Vec<Vec3> = grains().iter().map(|x| x - Vec3::repeat(0.5)).collect();
     for (i, impulse) in given.iter().enumerate() {
-        exchange.spread(i, *impulse, &mut impulses);
+        exchange.spread(i, [impulse.x, impulse.y, impulse.z, 0.0], &mut impulses);
         let mean = exchange.sample(i, &fields);
         assert!((mean.velocity() - constant.velocity()).norm() < 1e-14);
     }
