@@ -13,8 +13,8 @@ use crate::fluid::FluidParticles;
 use crate::fluid::kernel::{Kernel, Sharpening, WendlandC2};
 use crate::math::Vec3;
 #[cfg(target_arch = "x86_64")]
-use crate::neighbours::gather_avx512;
-use crate::neighbours::{LANES, Lanes, Record, Rows, gather, images};
+use crate::neighbours::{Avx2, Avx512};
+use crate::neighbours::{LANES, Plain, Record, Rows, Wide, images};
 
 /// What a grain may sample from a fluid particle: a velocity [m/s], a force density [N/m³] and the
 /// porosity [-]. One cache line.
@@ -139,47 +139,42 @@ impl Exchange {
                 return unsafe { self.weigh_avx2(grains, volume) };
             }
         }
-        self.weigh_lanes(grains, volume, gather);
+        self.weigh_wide::<Plain>(grains, volume);
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
     fn weigh_avx512(&mut self, grains: &[Vec3], volume: f64) {
-        self.weigh_lanes(grains, volume, |points, members| gather_avx512(points, members));
+        self.weigh_wide::<Avx512>(grains, volume);
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
     fn weigh_avx2(&mut self, grains: &[Vec3], volume: f64) {
-        self.weigh_lanes(grains, volume, gather);
+        self.weigh_wide::<Avx2>(grains, volume);
     }
 
     /// Weights and solids of eight candidates at a time. Lanes never mix before the end of a row.
     #[inline(always)]
-    fn weigh_lanes(
-        &mut self,
-        grains: &[Vec3],
-        volume: f64,
-        gather: impl Fn(&[Record], &[u32; LANES]) -> [Lanes; 8],
-    ) {
+    fn weigh_wide<W: Wide>(&mut self, grains: &[Vec3], volume: f64) {
         let per_length = 1.0 / self.length;
-        let (unit, slope_unit) = (volume * per_length.powi(3), volume * per_length.powi(5));
+        let unit = W::splat(volume * per_length.powi(3));
+        let slope_unit = W::splat(volume * per_length.powi(5));
+        let per_length = W::splat(per_length);
         for (row, &i) in self.order.iter().enumerate() {
             let grain = &grains[i as usize];
-            let mut norm = [0.0; LANES];
+            let grain = [W::splat(grain.x), W::splat(grain.y), W::splat(grain.z)];
+            let mut norm = W::splat(0.0);
             for members in self.candidates.row(row).as_chunks::<LANES>().0 {
-                let fields = gather(&self.points, members);
-                let (mut q, mut weight) = ([0.0; LANES], [0.0; LANES]);
-                let (mut solids, mut rate) = ([0.0; LANES], [0.0; LANES]);
-                for lane in 0..LANES {
-                    let r = [0, 1, 2].map(|axis| fields[axis][lane] - grain[axis]);
-                    let approach = r[0] * fields[3][lane] + r[1] * fields[4][lane] + r[2] * fields[5][lane];
-                    q[lane] = (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]).sqrt() * per_length;
-                    solids[lane] = unit * WendlandC2.value(q[lane]);
-                    rate[lane] = slope_unit * WendlandC2.slope(q[lane]) * approach;
-                    weight[lane] = fields[6][lane] * self.sharpening.value(q[lane]);
-                    norm[lane] += weight[lane];
-                }
+                let fields = W::gather(&self.points, members);
+                let r = [fields[0] - grain[0], fields[1] - grain[1], fields[2] - grain[2]];
+                let approach = r[0] * fields[3] + r[1] * fields[4] + r[2] * fields[5];
+                let q = (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]).sqrt() * per_length;
+                let weight = fields[6] * self.sharpening.value(q);
+                norm = norm + weight;
+                let solids = (unit * WendlandC2.value(q)).lanes();
+                let rate = (slope_unit * WendlandC2.slope(q) * approach).lanes();
+                let (q, weight) = (q.lanes(), weight.lanes());
                 for lane in 0..LANES {
                     let source = self.source_of[members[lane] as usize];
                     let sum = &mut self.sums[source as usize];
@@ -187,7 +182,7 @@ impl Exchange {
                     self.weights.offer(source, weight[lane], q[lane] < 2.0);
                 }
             }
-            self.weights.close(norm.iter().sum());
+            self.weights.close(norm.total());
         }
     }
 

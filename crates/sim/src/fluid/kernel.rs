@@ -4,11 +4,19 @@
 
 use std::f64::consts::PI;
 
+use crate::math::Number;
+
 pub trait Kernel: Copy + Send + Sync {
     /// h³ W at q = r/h [-].
-    fn value(&self, q: f64) -> f64;
+    fn value<N: Number>(&self, q: N) -> N;
     /// h⁵ W′(r)/r at q = r/h [-]; never positive.
-    fn slope(&self, q: f64) -> f64;
+    fn slope<N: Number>(&self, q: N) -> N;
+}
+
+/// 1 − q/2, and zero beyond the support.
+#[inline(always)]
+fn rest_of_support<N: Number>(q: N) -> N {
+    (N::splat(1.0) - N::splat(0.5) * q).or_zero()
 }
 
 /// Wendland C2: W = 21/(16π h³) (1 − q/2)⁴ (1 + 2q).
@@ -19,16 +27,16 @@ pub struct WendlandC2;
 
 impl Kernel for WendlandC2 {
     #[inline(always)]
-    fn value(&self, q: f64) -> f64 {
-        let t = (1.0 - 0.5 * q).max(0.0);
+    fn value<N: Number>(&self, q: N) -> N {
+        let t = rest_of_support(q);
         let t2 = t * t;
-        21.0 / (16.0 * PI) * t2 * t2 * (1.0 + 2.0 * q)
+        N::splat(21.0 / (16.0 * PI)) * t2 * t2 * (N::splat(1.0) + N::splat(2.0) * q)
     }
 
     #[inline(always)]
-    fn slope(&self, q: f64) -> f64 {
-        let t = (1.0 - 0.5 * q).max(0.0);
-        -105.0 / (16.0 * PI) * (t * t * t)
+    fn slope<N: Number>(&self, q: N) -> N {
+        let t = rest_of_support(q);
+        N::splat(-105.0 / (16.0 * PI)) * (t * t * t)
     }
 }
 
@@ -40,15 +48,15 @@ pub struct Lucy;
 
 impl Kernel for Lucy {
     #[inline(always)]
-    fn value(&self, q: f64) -> f64 {
-        let t = (1.0 - 0.5 * q).max(0.0);
-        105.0 / (128.0 * PI) * (t * t * t) * (1.0 + 1.5 * q)
+    fn value<N: Number>(&self, q: N) -> N {
+        let t = rest_of_support(q);
+        N::splat(105.0 / (128.0 * PI)) * (t * t * t) * (N::splat(1.0) + N::splat(1.5) * q)
     }
 
     #[inline(always)]
-    fn slope(&self, q: f64) -> f64 {
-        let t = (1.0 - 0.5 * q).max(0.0);
-        -315.0 / (128.0 * PI) * (t * t)
+    fn slope<N: Number>(&self, q: N) -> N {
+        let t = rest_of_support(q);
+        N::splat(-315.0 / (128.0 * PI)) * (t * t)
     }
 }
 
@@ -78,8 +86,8 @@ impl Sharpening {
 
     /// h³ W (a − b q²) at q [-].
     #[inline(always)]
-    pub fn value(&self, q: f64) -> f64 {
-        WendlandC2.value(q) * (self.a - self.b * q * q)
+    pub fn value<N: Number>(&self, q: N) -> N {
+        WendlandC2.value(q) * (N::splat(self.a) - N::splat(self.b) * q * q)
     }
 
     /// h³ ∫ W*² dV [-].

@@ -17,8 +17,8 @@
 use super::kernel::Kernel;
 pub(super) use crate::neighbours::Record;
 #[cfg(target_arch = "x86_64")]
-use crate::neighbours::gather_avx512;
-use crate::neighbours::{LANES, Lanes, Rows, gather};
+use crate::neighbours::{Avx2, Avx512};
+use crate::neighbours::{LANES, Plain, Rows, Wide};
 
 /// Constants of a sweep.
 #[derive(Clone, Copy, Debug)]
@@ -59,7 +59,7 @@ pub fn sweep<K: Kernel, const ARTIFICIAL: bool>(
             return unsafe { sweep_avx2::<K, ARTIFICIAL>(kernel, coefficients, records, rows, rates) };
         }
     }
-    sweep_lanes::<K, ARTIFICIAL>(kernel, coefficients, records, rows, rates, gather);
+    sweep_wide::<K, Plain, ARTIFICIAL>(kernel, coefficients, records, rows, rates);
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -71,9 +71,7 @@ fn sweep_avx512<K: Kernel, const ARTIFICIAL: bool>(
     rows: &Rows,
     rates: &mut [Rates],
 ) {
-    sweep_lanes::<K, ARTIFICIAL>(kernel, coefficients, records, rows, rates, |records, members| {
-        gather_avx512(records, members)
-    });
+    sweep_wide::<K, Avx512, ARTIFICIAL>(kernel, coefficients, records, rows, rates);
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -85,55 +83,50 @@ fn sweep_avx2<K: Kernel, const ARTIFICIAL: bool>(
     rows: &Rows,
     rates: &mut [Rates],
 ) {
-    sweep_lanes::<K, ARTIFICIAL>(kernel, coefficients, records, rows, rates, gather);
+    sweep_wide::<K, Avx2, ARTIFICIAL>(kernel, coefficients, records, rows, rates);
 }
 
 #[inline(always)]
-fn sweep_lanes<K: Kernel, const ARTIFICIAL: bool>(
+fn sweep_wide<K: Kernel, W: Wide, const ARTIFICIAL: bool>(
     kernel: K,
     coefficients: &Coefficients,
     records: &[Record],
     rows: &Rows,
     rates: &mut [Rates],
-    gather: impl Fn(&[Record], &[u32; LANES]) -> [Lanes; 8],
 ) {
-    let per_smoothing = 1.0 / coefficients.smoothing;
-    let slope_unit = per_smoothing.powi(5);
+    let slope_unit = (1.0 / coefficients.smoothing).powi(5);
+    let per_smoothing = W::splat(1.0 / coefficients.smoothing);
+    let artificial = W::splat(coefficients.artificial);
+    let viscous = 2.0 * coefficients.viscosity;
     for (target, rate) in rates.iter_mut().enumerate() {
-        let own = records[target].0;
-        let mut sums = [[0.0; LANES]; 7];
-        for members in rows.row(target).as_chunks::<LANES>().0 {
-            let fields = gather(records, members);
-            for lane in 0..LANES {
-                let r = [
-                    own[0] - fields[0][lane],
-                    own[1] - fields[1][lane],
-                    own[2] - fields[2][lane],
-                ];
-                let v = [
-                    own[3] - fields[3][lane],
-                    own[4] - fields[4][lane],
-                    own[5] - fields[5][lane],
-                ];
-                let distance = (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]).sqrt();
-                let slope = fields[6][lane] * kernel.slope(distance * per_smoothing);
-                let approach = v[0] * r[0] + v[1] * r[1] + v[2] * r[2];
-                let mut along = slope * (own[7] + fields[7][lane]);
-                if ARTIFICIAL {
-                    along -= slope * coefficients.artificial * approach / distance;
-                }
-                for axis in 0..3 {
-                    sums[axis][lane] += along * r[axis];
-                    sums[3 + axis][lane] += slope * v[axis];
-                }
-                sums[6][lane] += slope * approach;
-            }
+        let mut own = [W::splat(0.0); 8];
+        for (own, value) in own.iter_mut().zip(&records[target].0) {
+            *own = W::splat(*value);
         }
-        let total = sums.map(|lanes| lanes.iter().sum::<f64>() * slope_unit);
-        let viscous = 2.0 * coefficients.viscosity;
-        *rate = Rates {
-            stress: [0, 1, 2].map(|axis| viscous * total[3 + axis] - total[axis]),
-            divergence: -total[6],
-        };
+        let mut pressed = [W::splat(0.0); 3];
+        let mut sheared = [W::splat(0.0); 3];
+        let mut approached = W::splat(0.0);
+        for members in rows.row(target).as_chunks::<LANES>().0 {
+            let other = W::gather(records, members);
+            let r = [own[0] - other[0], own[1] - other[1], own[2] - other[2]];
+            let v = [own[3] - other[3], own[4] - other[4], own[5] - other[5]];
+            let distance = (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]).sqrt();
+            let slope = other[6] * kernel.slope(distance * per_smoothing);
+            let approach = v[0] * r[0] + v[1] * r[1] + v[2] * r[2];
+            let mut along = slope * (own[7] + other[7]);
+            if ARTIFICIAL {
+                along = along - slope * artificial * approach / distance;
+            }
+            for axis in 0..3 {
+                pressed[axis] = pressed[axis] + along * r[axis];
+                sheared[axis] = sheared[axis] + slope * v[axis];
+            }
+            approached = approached + slope * approach;
+        }
+        for axis in 0..3 {
+            let stress = viscous * sheared[axis].total() - pressed[axis].total();
+            rate.stress[axis] = stress * slope_unit;
+        }
+        rate.divergence = -approached.total() * slope_unit;
     }
 }

@@ -1,5 +1,9 @@
 //! Vectors and the few numbers every room needs.
 
+mod number;
+
+pub use number::Number;
+
 /// A vector in SI units.
 pub type Vec3 = nalgebra::Vector3<f64>;
 

@@ -2,11 +2,12 @@
 //! particles beyond a periodic side so that no sum ever wraps a distance.
 
 mod cells;
-mod gather;
 mod rows;
+mod wide;
 
 pub use cells::CellGrid;
-#[cfg(target_arch = "x86_64")]
-pub(crate) use gather::gather_avx512;
-pub(crate) use gather::{Lanes, Record, gather};
 pub use rows::{Image, LANES, Rows, images};
+pub use wide::Record;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use wide::{Avx2, Avx512};
+pub(crate) use wide::{Plain, Wide};

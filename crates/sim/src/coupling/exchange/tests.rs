@@ -103,7 +103,7 @@ fn every_instruction_set_gives_the_same_bits() {
     let mut plain = exchange(&fluid);
     plain.weights.clear(plain.candidates.len_padded());
     plain.sums.fill([0.0; 2]);
-    plain.weigh_lanes(&grains(), VOLUME, gather);
+    plain.weigh_wide::<Plain>(&grains(), VOLUME);
     for (a, sums) in plain.sums.iter().enumerate() {
         assert_eq!(*sums, [dispatched.solids[a], dispatched.solids_rate[a]]);
     }
