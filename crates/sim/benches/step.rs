@@ -151,6 +151,7 @@ fn coupled(position: Vec<Vec3>, isolated: bool, refresh_interval: u64) -> Simula
         },
         porosity: GrainPorosity::Known(porosity),
         intrinsic_stress: false,
+        buoyancy: 1000.0 * volume * 9.81,
         two_way: true,
         own_flow: isolated.then(|| SelfInducedFlow::new(&basin, volume)),
         breathing: Some(Breathing::new(SOUND_SPEED, HEIGHT, SPACING)),

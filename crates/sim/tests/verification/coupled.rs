@@ -67,6 +67,7 @@ pub fn fallen_speed(position: Vec<Vec3>, steps: usize) -> f64 {
         slip: SlipRule::MixtureFlux,
         porosity: GrainPorosity::Known(porosity),
         intrinsic_stress: false,
+        buoyancy: WATER.density * volume * GRAVITY,
         two_way: true,
         own_flow: None,
         breathing: None,
