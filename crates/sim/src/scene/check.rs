@@ -186,8 +186,21 @@ fn single_sphere(scene: &SingleSphere, list: &mut List) {
         duration: scene.duration,
         gravity: scene.gravity,
     };
-    common(&shared, list);
-    list.between("release_height", scene.release_height, 0.0, 1.0);
+    let sound = common(&shared, list);
+    if !list.between("release_height", scene.release_height, 0.0, 1.0) || !sound {
+        return;
+    }
+    let (radius, height) = (0.5 * scene.grains.diameter, scene.column.height);
+    let released = scene.release_height * height;
+    if released < radius || released > height - radius {
+        let message = format!(
+            "a grain released at {} touches the floor or the surface of a column {} high",
+            millimetres(released),
+            millimetres(height)
+        );
+        let help = "keep the grain's radius away from both";
+        list.add("release_height", message, help);
+    }
 }
 
 fn porosity_block(scene: &ConstantPorosityBlock, list: &mut List) {

@@ -47,7 +47,7 @@ pub fn run<L: DragLaw>(
         recorder.before(&simulation, step, dt);
         simulation.step(dt);
         recorder.after(&simulation, step, dt);
-        if let Some(reason) = divergence(&simulation) {
+        if let Some(reason) = divergence(&simulation, settling.column.height) {
             return Err(failure(FailureKind::Diverged, reason, recorder, &simulation));
         }
         if step.is_multiple_of(16) {
@@ -71,7 +71,7 @@ fn failure<L: DragLaw>(
 }
 
 /// Why the state can no longer be trusted, if so.
-fn divergence<L: DragLaw>(simulation: &Simulation<L>) -> Option<String> {
+fn divergence<L: DragLaw>(simulation: &Simulation<L>, height: f64) -> Option<String> {
     let when = format!("at t = {:.6e} s (step {})", simulation.time, simulation.steps);
     let fluid = &simulation.fluid;
     if let Some(a) = (0..fluid.len()).find(|&a| !(fluid.velocity[a].norm() + fluid.pressure[a]).is_finite()) {
@@ -91,8 +91,18 @@ fn divergence<L: DragLaw>(simulation: &Simulation<L>) -> Option<String> {
             100.0 * OVERLAP_LIMIT
         ));
     }
+    if let Some(i) = simulation.grains.position.iter().position(|x| x.z > height) {
+        return Some(format!("grain {i} left the fluid through its surface {when}"));
+    }
     simulation.energy_excess().map(|(energy, bound)| {
-        format!("kinetic energy {energy:.3e} J exceeds twice what gravity and the start gave, {bound:.3e} J, {when}")
+        let speed = |a: &usize| fluid.velocity[*a].norm();
+        let fastest = (0..fluid.len()).max_by(|a, b| speed(a).total_cmp(&speed(b))).unwrap_or(0);
+        let x = fluid.anchored_position(fastest);
+        format!(
+            "kinetic energy {energy:.3e} J exceeds twice what gravity and the start gave, {bound:.3e} J, {when}; \
+             fluid particle {fastest} is the fastest, near ({:.3e}, {:.3e}, {:.3e}) m",
+            x.x, x.y, x.z
+        )
     })
 }
 
