@@ -46,6 +46,8 @@ struct Layer {
     /// (2/(ρ L² H)) Ŵ² k_⊥²/k² times the number of modes with this k_⊥ [1/kg].
     weight: Vec<f64>,
     decay: Vec<f64>,
+    /// Share of each amplitude that a step keeps, e^(−λ dt).
+    kept: Vec<f64>,
     amplitude: Vec<f64>,
 }
 
@@ -53,6 +55,8 @@ pub struct SelfInducedFlow {
     layers: Vec<Layer>,
     /// ∫ W* W dV, the share of the grain's own solids fraction it samples, times V/3 [-].
     displacement: f64,
+    /// Step the kept shares belong to [s].
+    step: f64,
 }
 
 /// Wavenumbers beyond which the kernel lets nothing through, times h_x.
@@ -86,6 +90,7 @@ impl SelfInducedFlow {
                     vertical,
                     weight: Vec::new(),
                     decay: Vec::new(),
+                    kept: Vec::new(),
                     amplitude: Vec::new(),
                 };
                 for (s, &count) in multiplicity
@@ -115,17 +120,24 @@ impl SelfInducedFlow {
         SelfInducedFlow {
             layers,
             displacement: volume / 3.0 * overlap / basin.exchange.powi(3),
+            step: 0.0,
         }
     }
 
     /// Lets the grain push with `force` [N] (downward positive) for `dt` [s] at height `z` [m].
     pub fn advance(&mut self, force: f64, z: f64, dt: f64) {
+        if dt != self.step {
+            self.step = dt;
+            for layer in &mut self.layers {
+                layer.kept = layer.decay.iter().map(|decay| (-decay * dt).exp()).collect();
+            }
+        }
         for layer in &mut self.layers {
             let drive = force * (layer.vertical * z).sin();
-            for (amplitude, decay) in layer.amplitude.iter_mut().zip(&layer.decay) {
+            for ((amplitude, decay), kept) in layer.amplitude.iter_mut().zip(&layer.decay).zip(&layer.kept) {
                 // Exact for a force constant over the step.
                 let steady = drive / decay;
-                *amplitude = steady + (*amplitude - steady) * (-decay * dt).exp();
+                *amplitude = steady + (*amplitude - steady) * kept;
             }
         }
     }
