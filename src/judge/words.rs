@@ -22,13 +22,23 @@ pub fn percent(fraction: f64) -> String {
     format!("{} %", significant(100.0 * fraction, 6))
 }
 
-/// `0.95 to 1.05`, `< 1.05`, `> 0.95`.
+/// `0.95 to 1.05`, `< 1.05`, `> −0.1`.
 pub fn band(band: &Band) -> String {
     match (band.above, band.below) {
-        (Some(above), Some(below)) => format!("{} to {}", significant(above, 6), significant(below, 6)),
-        (Some(above), None) => format!("> {}", significant(above, 6)),
-        (None, Some(below)) => format!("< {}", significant(below, 6)),
+        (Some(above), Some(below)) => format!("{} to {}", edge(above), edge(below)),
+        (Some(above), None) => format!("> {}", edge(above)),
+        (None, Some(below)) => format!("< {}", edge(below)),
         (None, None) => "any".to_string(),
+    }
+}
+
+/// An edge of a band, with the minus sign of text; exponents keep the one that numbers are parsed with.
+fn edge(value: f64) -> String {
+    let digits = significant(value.abs(), 6);
+    if value < 0.0 {
+        format!("−{digits}")
+    } else {
+        digits
     }
 }
 
@@ -53,5 +63,13 @@ mod tests {
         assert_eq!(significant(6.93428e-9, 6), "6.93428e-9");
         assert_eq!(significant(0.0, 6), "0");
         assert_eq!(significant(f64::NAN, 6), "NaN");
+    }
+
+    #[test]
+    fn negative_edges_have_a_minus_sign() {
+        let between = |above, below| band(&Band { above, below });
+        assert_eq!(between(Some(-0.1), Some(0.1)), "−0.1 to 0.1");
+        assert_eq!(between(Some(-1e-12), None), "> −1e-12");
+        assert_eq!(between(None, Some(2e-6)), "< 2e-6");
     }
 }

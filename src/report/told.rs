@@ -62,7 +62,8 @@ fn numbers(error: Option<f64>, computed: Option<f64>, expected: Option<f64>, uni
 
 /// The admitted band; a bound on an error in percent, like the error itself.
 pub fn band(verdict: &Verdict) -> String {
-    let words = verdict.band.split(' ').map(|word| match word.parse::<f64>() {
+    let number = |word: &str| word.replace('−', "-").parse::<f64>();
+    let words = verdict.band.split(' ').map(|word| match number(word) {
         Ok(bound) if verdict.error.is_some() => format::percent(bound),
         Ok(bound) => format::number(bound),
         Err(_) => word.to_owned(),
@@ -171,7 +172,7 @@ mod tests {
     #[test]
     fn bands_are_in_the_form_of_their_numbers() {
         assert_eq!(band(&verdict(Some(0.02), "< 0.01")), "< 1 %");
-        assert_eq!(band(&verdict(None, "-0.1 to 0.1")), "−0.1 to 0.1");
+        assert_eq!(band(&verdict(None, "−0.1 to 0.1")), "−0.1 to 0.1");
         assert_eq!(band(&verdict(None, "< 1e-12")), "< 10⁻¹²");
         assert_eq!(band(&verdict(None, "rising")), "rising");
     }
