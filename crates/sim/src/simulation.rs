@@ -5,7 +5,7 @@
 //! exchange sees velocities at the full step, extrapolated with the last reaction, so a steady state is
 //! free of the step's length.
 
-use crate::contact::LinearSpringDashpot;
+use crate::contact::{Contact, LinearSpringDashpot, NormalLaw};
 use crate::coupling::{Breathing, Exchange, Field, SelfInducedFlow};
 use crate::drag::{DragLaw, DragScale};
 use crate::fluid::FluidParticles;
@@ -348,7 +348,14 @@ impl<L: DragLaw> Simulation<L> {
 
     /// The same near the floor, in equal sub-steps short against a contact.
     fn land(&mut self, body: &ExactDrag, lowest: f64, dt: f64) -> Vec3 {
-        let contact_time = self.rules.floor.duration(self.grains.mass);
+        let touch = |overlap: f64, rate: f64| Contact {
+            overlap,
+            rate,
+            reduced_mass: self.grains.mass,
+            mean_mass: self.grains.mass,
+            reduced_radius: 0.5 * self.grains.diameter,
+        };
+        let contact_time = self.rules.floor.contact_time(&touch(0.0, 0.0));
         let parts = (dt / (contact_time / self.rules.contact_steps)).ceil().max(1.0);
         let part = dt / parts;
         let bottom = self
@@ -365,7 +372,7 @@ impl<L: DragLaw> Simulation<L> {
         for _ in 0..parts as u64 {
             let overlap = 0.5 * self.grains.diameter - z;
             let push = if overlap > 0.0 {
-                self.rules.floor.force(overlap, -velocity.z)
+                self.rules.floor.force(&touch(overlap, -velocity.z))
             } else {
                 0.0
             };
