@@ -165,7 +165,7 @@ fn smoothing(case: &Case, grain: &Grain, layers: &Layers) -> Result<(Seen, Margi
     let (seen, volume) = (sharp(1, own), grain.volume());
     let pitch = (volume / sheet).sqrt();
     Ok((
-        Box::new(move |z| lattice_sheet(&seen, 2.0 * own, volume, pitch, z)),
+        Box::new(move |z| lattice_sheet(seen, 2.0 * own, volume, pitch, z)),
         exchange,
     ))
 }

@@ -64,8 +64,8 @@ mod tests {
         let table = dataset("lsd_contact_analytic.csv");
         for row in 0..table.rows() {
             let e = table.number("restitution_e", row);
-            let (mass, stiffness) = (2e-9, 18.0);
-            let natural = (stiffness / mass as f64).sqrt();
+            let (mass, stiffness) = (2e-9_f64, 18.0);
+            let natural = (stiffness / mass).sqrt();
             let pair = SpringDashpot {
                 mass,
                 stiffness,

@@ -7,7 +7,7 @@
 //! `Gear<5>` and `Gear<6>` keep position and 4 or 5 derivatives. The first coefficient is the one for
 //! forces that depend on velocity: 19/90 with 5 values, 3/16 with 6. Alvim (2016), table 1, prints 2/16
 //! for the latter; 19/120 and 3/20 are for forces of position only. Angular velocities follow a first
-//! order equation with the same number of derivatives of the torque. The first steps are Runge–Kutta
+//! order equation with the same number of derivatives of the torque. Orders 4 and 5, damped or not. The first steps are Runge–Kutta
 //! steps, from whose accelerations the higher derivatives are differenced.
 //!
 //! Stable for ω Δt < 0.42 (5 values) and 0.25 (6) at a damping ratio of 0.3; without damping the scheme

@@ -71,11 +71,15 @@ fn the_higher_schemes_keep_their_order_under_damping() {
         "{linear} {angular}"
     );
     let (linear, angular) = orders::<Gear<5>>(0.3);
-    println!("gear 5: {linear} {angular}");
-    assert!(linear > 2.8 && angular > 2.8, "{linear} {angular}");
+    assert!(
+        (linear - 4.0).abs() < 0.15 && (angular - 4.0).abs() < 0.15,
+        "{linear} {angular}"
+    );
     let (linear, angular) = orders::<Gear<6>>(0.3);
-    println!("gear 6: {linear} {angular}");
-    assert!(linear > 3.8 && angular > 3.8, "{linear} {angular}");
+    assert!(
+        (linear - 5.0).abs() < 0.15 && (angular - 5.0).abs() < 0.15,
+        "{linear} {angular}"
+    );
 }
 
 #[test]
@@ -98,7 +102,8 @@ fn gear_schemes_grow_beyond_their_limits_and_not_below() {
         for _ in 0..20_000 {
             scheme.step(&mut bodies, &mut forces, time_step);
         }
-        !(bodies.position[0].norm() < 1.0)
+        let size = bodies.position[0].norm();
+        size.is_nan() || size >= 1.0
     }
     assert!(!grown::<Gear<5>>(0.41) && grown::<Gear<5>>(0.43));
     assert!(!grown::<Gear<6>>(0.24) && grown::<Gear<6>>(0.26));

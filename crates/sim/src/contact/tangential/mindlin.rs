@@ -89,16 +89,16 @@ mod tests {
 
     #[test]
     fn the_initial_stiffness_is_eight_shear_moduli_times_the_contact_radius() {
-        let (young, ratio, radius, overlap) = (1e6, 0.29, 6e-5, 1e-8);
+        let (young, ratio, radius, overlap) = (1e6, 0.29, 6e-5_f64, 1e-8_f64);
         let modulus = young / (2.0 * (1.0 - ratio * ratio));
         let shear = young / (2.0 * (1.0 + ratio)) / (2.0 * (2.0 - ratio));
-        let hertz = 4.0 / 3.0 * modulus * (radius * overlap * overlap * overlap as f64).sqrt();
+        let hertz = 4.0 / 3.0 * modulus * (radius * overlap * overlap * overlap).sqrt();
         let shift = 1e-14;
         let stiffness = |limit| {
             let history = Vec3::new(0.0, shift, 0.0);
             -law(limit).force(&slip(overlap, hertz), history).0.y / shift
         };
-        let expected = 8.0 * shear * (radius * overlap as f64).sqrt();
+        let expected = 8.0 * shear * (radius * overlap).sqrt();
         assert!((stiffness(SlipLimit::Correct) / expected - 1.0).abs() < 1e-4);
         assert!((stiffness(SlipLimit::Literal) / expected - 0.5).abs() < 1e-4);
     }
