@@ -1,14 +1,17 @@
 //! Values to judge against: analytic solutions and published data. Shares nothing with the simulator.
 
+mod collision;
 pub mod drag_law;
 pub mod force_balance;
 pub mod grain;
+pub mod hertz_collision;
 pub mod kernel;
 pub mod library;
 pub mod rehearsal;
 mod root;
 mod settings;
 pub mod smoothed_balance;
+pub mod spring_dashpot_collision;
 pub mod stokes_start_up;
 pub mod terminal_velocity;
 
@@ -67,6 +70,10 @@ fn solutions() -> Vec<Solution> {
         terminal_velocity::solution(),
         force_balance::solution(),
         smoothed_balance::solution(),
+        collision::restitution(),
+        collision::contact_time(),
+        collision::overlap(),
+        collision::sliding(),
         rehearsal::limit(),
         rehearsal::series(),
     ]

@@ -38,6 +38,10 @@ pub const REFERENCES: &[(&str, ObservableKind)] = &[
     ("terminal_velocity", Scalar),
     ("force_balance", Scalar),
     ("smoothed_balance", Scalar),
+    ("collision_restitution", Scalar),
+    ("collision_contact_time", Scalar),
+    ("collision_overlap", Scalar),
+    ("sliding_restitution", Scalar),
     ("known_limit", Scalar),
     ("known_series", Series),
 ];

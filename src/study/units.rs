@@ -15,6 +15,9 @@ impl Dimension {
     pub const SPEED: Dimension = Dimension([0, 1, -1]);
     pub const ACCELERATION: Dimension = Dimension([0, 1, -2]);
     pub const STIFFNESS: Dimension = Dimension([1, 0, -2]);
+    pub const PRESSURE: Dimension = Dimension([1, -1, -2]);
+    pub const DAMPING: Dimension = Dimension([1, 0, -1]);
+    pub const FREQUENCY: Dimension = Dimension([0, 0, -1]);
 
     /// What a quantity of this dimension is called, where it has a name.
     pub fn name(self) -> Option<&'static str> {
@@ -82,13 +85,14 @@ const NAMED: &[(Dimension, &str, &str)] = &[
     (Dimension::SPEED, "speed", "m/s"),
     (Dimension::ACCELERATION, "acceleration", "m/s²"),
     (Dimension::VISCOSITY, "viscosity", "Pa s"),
-    (Dimension([1, -1, -2]), "pressure", "Pa"),
+    (Dimension::PRESSURE, "pressure", "Pa"),
     (Dimension([1, 1, -2]), "force", "N"),
     (Dimension::STIFFNESS, "stiffness", "N/m"),
+    (Dimension::DAMPING, "damping coefficient", "N s/m"),
     (Dimension([1, 2, -2]), "energy", "J"),
     (Dimension([1, 2, -3]), "power", "W"),
     (Dimension([0, 2, -1]), "diffusivity", "m²/s"),
-    (Dimension([0, 0, -1]), "frequency", "Hz"),
+    (Dimension::FREQUENCY, "frequency", "1/s"),
 ];
 
 /// Symbol, dimension, power of ten and the factor beside it.
@@ -97,6 +101,7 @@ type Unit = (&'static str, Dimension, i32, f64);
 /// Units taken as they stand; looked up before prefixes are split off.
 const WHOLE: &[Unit] = &[
     ("%", Dimension::NONE, -2, 1.0),
+    ("rad", Dimension::NONE, 0, 1.0),
     ("min", Dimension::TIME, 0, 60.0),
     ("h", Dimension::TIME, 0, 3600.0),
     ("kg", Dimension([1, 0, 0]), 0, 1.0),
@@ -284,6 +289,8 @@ mod tests {
             ("9.81 m/s^2", 9.81, Dimension::ACCELERATION),
             ("9.81 m s-2", 9.81, Dimension::ACCELERATION),
             ("1e3 N/m", 1000.0, Dimension::STIFFNESS),
+            ("10 N s/m", 10.0, Dimension::DAMPING),
+            ("20 rad/s", 20.0, Dimension::FREQUENCY),
             ("1 %", 0.01, Dimension::NONE),
             ("-3 mm", -3e-3, Dimension::LENGTH),
         ] {

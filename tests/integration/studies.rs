@@ -19,6 +19,7 @@ fn particles_per_side(point: &Point) -> f64 {
     let (fluid, column, grains) = match scene {
         Scene::SingleSphere(sphere) => (&sphere.fluid, sphere.column, sphere.grains),
         Scene::ConstantPorosityBlock(block) => (&block.fluid, block.column, block.grains),
+        Scene::BinaryCollision(_) => panic!("a scene with a fluid"),
     };
     let Fluid::Sph(fluid) = fluid else {
         panic!("a particle fluid")
@@ -137,7 +138,15 @@ fn the_schema_is_closed_and_its_references_resolve() {
     }
     assert_eq!(schema["additionalProperties"], false);
     let names: Vec<String> = study::scenes().into_iter().map(|entry| entry.name).collect();
-    assert_eq!(names, ["single_sphere", "constant_porosity_block", "rehearsal"]);
+    assert_eq!(
+        names,
+        [
+            "single_sphere",
+            "constant_porosity_block",
+            "binary_collision",
+            "rehearsal"
+        ]
+    );
 }
 
 /// Bytes that matter to YAML, and numbers at their limits.

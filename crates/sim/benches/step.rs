@@ -155,10 +155,7 @@ fn coupled(position: Vec<Vec3>, isolated: bool, refresh_interval: u64) -> Simula
         two_way: true,
         own_flow: isolated.then(|| SelfInducedFlow::new(&basin, volume)),
         breathing: Some(Breathing::new(SOUND_SPEED, HEIGHT, SPACING)),
-        floor: LinearSpringDashpot {
-            stiffness: 1.0,
-            damping: 0.0,
-        },
+        floor: LinearSpringDashpot::with_restitution(1.0, 1.0),
         contact_steps: 20.0,
         refresh_interval,
     };

@@ -1,6 +1,7 @@
 //! The shape of a study file, as types: they are what `kynch schema` prints and what the
 //! structural check of a file follows.
 
+pub mod collision;
 pub mod quantity;
 pub mod scene;
 pub mod statement;

@@ -91,6 +91,31 @@ quantity!(
     Dimension::ACCELERATION
 );
 quantity!(
+    /// [m/s]
+    Speed,
+    Dimension::SPEED
+);
+quantity!(
+    /// [rad/s]
+    AngularVelocity,
+    Dimension::FREQUENCY
+);
+quantity!(
+    /// [Pa]
+    Pressure,
+    Dimension::PRESSURE
+);
+quantity!(
+    /// [N/m]
+    Stiffness,
+    Dimension::STIFFNESS
+);
+quantity!(
+    /// [N s/m]
+    Damping,
+    Dimension::DAMPING
+);
+quantity!(
     /// Dimensionless; `1 %` is 0.01.
     Fraction,
     Dimension::NONE

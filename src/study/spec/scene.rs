@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::collision::CollisionSpec;
 use super::quantity::{
     Acceleration, CoefficientSpec, Density, Fraction, Length, SoundSpeedSpec, StiffnessSpec, Time,
     TimeStepSpec, Viscosity,
@@ -16,6 +17,8 @@ pub enum SceneSpec {
     SingleSphere(SingleSphereSpec),
     /// A rigid lattice of grains falls through the whole cross-section of a column of fluid.
     ConstantPorosityBlock(BlockSpec),
+    /// A grain meets another one or a flat wall: contact laws and integrators on their own.
+    BinaryCollision(CollisionSpec),
     /// No physics: returns a known series, to try out plans, stores, verdicts and reports.
     Rehearsal(RehearsalSpec),
 }

@@ -14,19 +14,24 @@ pub fn check(scene: &Scene) -> Vec<Fault> {
     match scene {
         Scene::SingleSphere(sphere) => single_sphere(sphere, &mut list),
         Scene::ConstantPorosityBlock(block) => porosity_block(block, &mut list),
+        Scene::BinaryCollision(collision) => super::collision::check(collision, &mut list),
     }
     // The safe step follows from numbers that must make sense first.
     if list.0.is_empty() {
-        time_step(&Settling::of(scene), &mut list);
+        match scene {
+            Scene::SingleSphere(sphere) => time_step(&Settling::of_sphere(sphere), &mut list),
+            Scene::ConstantPorosityBlock(block) => time_step(&Settling::of_block(block), &mut list),
+            Scene::BinaryCollision(_) => {}
+        }
     }
     list.0
 }
 
 #[derive(Default)]
-struct List(Vec<Fault>);
+pub(super) struct List(Vec<Fault>);
 
 impl List {
-    fn add(&mut self, path: &str, message: String, help: &str) {
+    pub(super) fn add(&mut self, path: &str, message: String, help: &str) {
         self.0.push(Fault {
             path: path.to_owned(),
             message,
@@ -35,7 +40,7 @@ impl List {
     }
 
     /// Asks for a finite number above zero; says whether it is.
-    fn positive(&mut self, path: &str, value: f64) -> bool {
+    pub(super) fn positive(&mut self, path: &str, value: f64) -> bool {
         let holds = value > 0.0 && value.is_finite();
         if !holds {
             let name = path.rsplit('.').next().unwrap_or(path);

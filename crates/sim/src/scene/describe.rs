@@ -12,7 +12,11 @@ const PAIR_COST: f64 = 0.011;
 
 /// The scene in words. Meaningful only for a scene without faults.
 pub fn describe(scene: &Scene) -> Description {
-    let settling = Settling::of(scene);
+    let settling = match scene {
+        Scene::SingleSphere(sphere) => Settling::of_sphere(sphere),
+        Scene::ConstantPorosityBlock(block) => Settling::of_block(block),
+        Scene::BinaryCollision(collision) => return super::collision::describe(collision),
+    };
     let (dt, steps) = settling.steps();
     let grains = settling.positions().len() as u64;
     let mut description = Description {

@@ -1,6 +1,7 @@
 //! The scenes the simulator knows, as plain data in SI units.
 
 mod check;
+mod collision;
 mod describe;
 mod observables;
 mod profiles;
@@ -10,6 +11,7 @@ mod run_sph;
 mod setup;
 
 pub use check::check;
+pub use collision::{BinaryCollision, IntegratorChoice, Material, Normal, Partner, Rolling, Tangential};
 pub use describe::describe;
 pub use observables::observables;
 
@@ -20,6 +22,7 @@ use crate::outcome::{Control, Failure, Outcome};
 pub enum Scene {
     SingleSphere(SingleSphere),
     ConstantPorosityBlock(ConstantPorosityBlock),
+    BinaryCollision(BinaryCollision),
 }
 
 /// One grain falls from rest in a column of fluid, away from the walls.
@@ -295,7 +298,11 @@ pub struct Description {
 /// # Errors
 /// [`Failure`] when the run diverges or is stopped; it keeps what was computed.
 pub fn run(scene: &Scene, control: &Control) -> Result<Outcome, Box<Failure>> {
-    let settling = setup::Settling::of(scene);
+    let settling = match scene {
+        Scene::SingleSphere(sphere) => setup::Settling::of_sphere(sphere),
+        Scene::ConstantPorosityBlock(block) => setup::Settling::of_block(block),
+        Scene::BinaryCollision(collision) => return collision::run(collision, control),
+    };
     match settling.sph() {
         Some(sph) => setup::with_law!(settling.drag, law => run_sph::run(&settling, sph, law, control)),
         None => setup::with_law!(settling.drag, law => run_prescribed::run(&settling, law, control)),

@@ -207,7 +207,11 @@ const BLOCK: &[Row] = &[
 
 /// What a scene can be asked for, in a stable order.
 pub fn observables(scene: &Scene) -> Vec<Observable> {
-    let settling = Settling::of(scene);
+    let settling = match scene {
+        Scene::SingleSphere(sphere) => Settling::of_sphere(sphere),
+        Scene::ConstantPorosityBlock(block) => Settling::of_block(block),
+        Scene::BinaryCollision(collision) => return super::collision::observables(collision),
+    };
     let particles = if settling.sph().is_some() { PARTICLES } else { &[] };
     let own = match (settling.sph().is_some(), settling.block.is_some()) {
         (false, _) => &[],

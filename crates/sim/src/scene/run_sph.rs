@@ -247,10 +247,7 @@ fn rules<L: DragLaw>(
                 fluid.numerics.spacing,
             )
         }),
-        floor: LinearSpringDashpot {
-            stiffness,
-            damping: 0.0,
-        },
+        floor: LinearSpringDashpot::with_restitution(stiffness, 1.0),
         contact_steps: scheme.steps_per_contact,
         refresh_interval: if isolated { 1 } else { 8 },
     }

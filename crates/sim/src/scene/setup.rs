@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use super::{
-    Column, ConstantPorosityBlock, Drag, Fluid, Grains, Hydrostatics, Medium, Scene, SingleSphere,
-    SoundSpeed, SphFluid,
+    Column, ConstantPorosityBlock, Drag, Fluid, Grains, Hydrostatics, Medium, SingleSphere, SoundSpeed,
+    SphFluid,
 };
 use crate::drag::{CoulsonRichardson, Dallavalle, DiFelice, DragScale, SchillerNaumann, Stokes};
 use crate::math::Vec3;
@@ -61,28 +61,29 @@ pub struct Settling<'a> {
 }
 
 impl<'a> Settling<'a> {
-    pub fn of(scene: &'a Scene) -> Self {
-        match scene {
-            Scene::SingleSphere(s) => Settling {
-                grains: &s.grains,
-                drag: s.drag,
-                fluid: &s.fluid,
-                column: &s.column,
-                duration: s.duration,
-                gravity: s.gravity,
-                block: None,
-                sphere: Some(s),
-            },
-            Scene::ConstantPorosityBlock(b) => Settling {
-                grains: &b.grains,
-                drag: b.drag,
-                fluid: &b.fluid,
-                column: &b.column,
-                duration: b.duration,
-                gravity: b.gravity,
-                block: Some(b),
-                sphere: None,
-            },
+    pub fn of_sphere(sphere: &'a SingleSphere) -> Self {
+        Settling {
+            grains: &sphere.grains,
+            drag: sphere.drag,
+            fluid: &sphere.fluid,
+            column: &sphere.column,
+            duration: sphere.duration,
+            gravity: sphere.gravity,
+            block: None,
+            sphere: Some(sphere),
+        }
+    }
+
+    pub fn of_block(block: &'a ConstantPorosityBlock) -> Self {
+        Settling {
+            grains: &block.grains,
+            drag: block.drag,
+            fluid: &block.fluid,
+            column: &block.column,
+            duration: block.duration,
+            gravity: block.gravity,
+            block: Some(block),
+            sphere: None,
         }
     }
 

@@ -1,6 +1,7 @@
 //! The exchange of momentum between grains and fluid over one step.
 
 use super::{GrainPorosity, POROSITY_FLOOR, Simulation, SlipRule};
+use crate::contact::{Contact, NormalLaw};
 use crate::coupling::Field;
 use crate::drag::DragLaw;
 use crate::integrator::ExactDrag;
@@ -151,7 +152,14 @@ impl<L: DragLaw> Simulation<L> {
     /// The same near the floor, in equal sub-steps short against a contact.
     fn land(&mut self, body: &ExactDrag, lowest: f64, dt: f64) -> Vec3 {
         let radius = 0.5 * self.grains.diameter;
-        let contact_time = self.rules.floor.duration(self.grains.mass);
+        let touch = |overlap: f64, rate: f64| Contact {
+            overlap,
+            rate,
+            reduced_mass: self.grains.mass,
+            mean_mass: self.grains.mass,
+            reduced_radius: radius,
+        };
+        let contact_time = self.rules.floor.contact_time(&touch(0.0, 0.0));
         let parts = (dt / (contact_time / self.rules.contact_steps)).ceil().max(1.0);
         let part = dt / parts;
         let bottom = self
@@ -167,7 +175,7 @@ impl<L: DragLaw> Simulation<L> {
             // Asked at the middle of the drift, the spring gives back exactly what it took.
             let overlap = radius - (z + 0.5 * part * velocity.z);
             let push = if overlap > 0.0 {
-                bottom * self.rules.floor.force(overlap, -velocity.z)
+                bottom * self.rules.floor.force(&touch(overlap, -velocity.z))
             } else {
                 0.0
             };

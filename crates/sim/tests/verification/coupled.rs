@@ -71,10 +71,7 @@ pub fn fallen_speed(position: Vec<Vec3>, steps: usize) -> f64 {
         two_way: true,
         own_flow: None,
         breathing: None,
-        floor: LinearSpringDashpot {
-            stiffness: 1.0,
-            damping: 0.0,
-        },
+        floor: LinearSpringDashpot::with_restitution(1.0, 1.0),
         contact_steps: 20.0,
         refresh_interval: 8,
     };

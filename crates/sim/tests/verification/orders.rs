@@ -1,11 +1,8 @@
 //! Observed orders in time of each integrator with each class of force.
 //!
-//! Exact drag: exact for linear drag, first order for drag that depends on speed. Velocity Verlet with a
-//! contact: second order without a dashpot, first with. The fluid step: second order.
+//! Exact drag: exact for linear drag, first order for drag that depends on speed. The fluid step is second
+//! order (`waves`); contacts are judged by the study `collision` and beside their integrators.
 
-use std::f64::consts::PI;
-
-use kynch_sim::contact::LinearSpringDashpot;
 use kynch_sim::drag::{DiFelice, DragLaw, DragScale, SchillerNaumann, Stokes};
 use kynch_sim::integrator::ExactDrag;
 use kynch_sim::math::Vec3;
@@ -62,45 +59,5 @@ fn exact_drag_is_of_first_order_where_drag_depends_on_speed() {
     let orders = [observed(SchillerNaumann, 1.0), observed(DiFelice, 0.9)];
     for order in orders.into_iter().flatten() {
         assert!((order - 1.0).abs() < 0.1, "{orders:?}");
-    }
-}
-
-/// Overlap [m] a fifth into an undamped period, by velocity Verlet on the law.
-fn overlap_after(law: LinearSpringDashpot, mass: f64, steps: u32) -> f64 {
-    let time = 0.4 * PI * (mass / law.stiffness).sqrt();
-    let dt = time / f64::from(steps);
-    let (mut overlap, mut rate) = (0.0, 1e-2);
-    let mut acceleration = -law.force(overlap, rate) / mass;
-    for _ in 0..steps {
-        rate += 0.5 * dt * acceleration;
-        overlap += dt * rate;
-        acceleration = -law.force(overlap, rate) / mass;
-        rate += 0.5 * dt * acceleration;
-    }
-    overlap
-}
-
-/// The same in closed form: δ = (v₀/ω) e^(−κt) sin ωt, κ = γ/2m, ω² = k/m − κ².
-fn damped_swing(law: LinearSpringDashpot, mass: f64) -> f64 {
-    let time = 0.4 * PI * (mass / law.stiffness).sqrt();
-    let decay = law.damping / (2.0 * mass);
-    let frequency = (law.stiffness / mass - decay * decay).sqrt();
-    1e-2 / frequency * (-decay * time).exp() * (frequency * time).sin()
-}
-
-#[test]
-fn velocity_verlet_loses_an_order_to_the_dashpot() {
-    let mass = 1e-9;
-    let elastic = LinearSpringDashpot {
-        stiffness: 10.0,
-        damping: 0.0,
-    };
-    let damped = LinearSpringDashpot::with_restitution(10.0, 0.5, mass);
-    for (law, expected) in [(elastic, 2.0), (damped, 1.0)] {
-        let error = |steps| (overlap_after(law, mass, steps) - damped_swing(law, mass)).abs();
-        for steps in [64, 128] {
-            let observed = order(error(steps), error(2 * steps), 2.0);
-            assert!((observed - expected).abs() < 0.1, "{observed} for {law:?}");
-        }
     }
 }

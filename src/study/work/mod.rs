@@ -1,5 +1,7 @@
 //! From the written scene to the plain data that runs.
 
+mod collision;
+
 use kynch_sim::scene::{
     Column, ConstantPorosityBlock, Coupling, Drag, Fluid, Grains, Hydrostatics, KernelChoice, Medium,
     PorosityPath, Scene, Scheme, SelfDisturbance, SharpeningChoice, SingleSphere, Slip, SoundSpeed, SphFluid,
@@ -75,6 +77,9 @@ pub fn work(spec: &SceneSpec) -> Work {
                 duration: block.duration.0,
                 gravity: block.gravity.0,
             }))
+        }
+        SceneSpec::BinaryCollision(spec) => {
+            Work::Simulation(Scene::BinaryCollision(collision::collision(spec)))
         }
         SceneSpec::Rehearsal(rehearsal) => Work::Rehearsal(rehearsed(rehearsal)),
     }

@@ -1,0 +1,20 @@
+//! Two grains, or a grain and a flat wall, from first touch to separation.
+
+mod check;
+mod describe;
+mod laws;
+mod model;
+mod observables;
+mod pair;
+mod run;
+mod setup;
+
+pub use model::{BinaryCollision, IntegratorChoice, Material, Normal, Partner, Rolling, Tangential};
+
+pub(super) use check::check;
+pub(super) use describe::describe;
+pub(super) use observables::observables;
+pub(super) use run::run;
+
+#[cfg(test)]
+mod tests;
