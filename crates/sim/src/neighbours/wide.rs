@@ -17,7 +17,10 @@ pub struct Record(pub [f64; 8]);
 pub trait Wide: Number {
     /// Eight records turned into eight lanes of each field.
     fn gather(records: &[Record], members: &[u32; LANES]) -> [Self; 8];
+    fn from_lanes(lanes: [f64; LANES]) -> Self;
     fn lanes(self) -> [f64; LANES];
+    /// Eight lanes of each field turned into eight records.
+    fn records(fields: [Self; 8]) -> [Record; LANES];
 
     /// Sum of the lanes, always in the same order.
     #[inline(always)]
@@ -27,7 +30,7 @@ pub trait Wide: Number {
 }
 
 /// Without registers of its own.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Plain([f64; LANES]);
 
 macro_rules! plain_operator {
@@ -50,19 +53,47 @@ plain_operator!(Mul, mul);
 plain_operator!(Div, div);
 
 impl Number for Plain {
+    type Mask = [bool; LANES];
+
     #[inline(always)]
     fn splat(value: f64) -> Self {
         Plain([value; LANES])
     }
 
     #[inline(always)]
-    fn or_zero(self) -> Self {
-        Plain(self.0.map(|x| x.max(0.0)))
+    fn sqrt(self) -> Self {
+        Plain(self.0.map(f64::sqrt))
     }
 
     #[inline(always)]
-    fn sqrt(self) -> Self {
-        Plain(self.0.map(f64::sqrt))
+    fn min(self, other: Self) -> Self {
+        Plain(std::array::from_fn(|lane| {
+            Number::min(self.0[lane], other.0[lane])
+        }))
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Plain(std::array::from_fn(|lane| {
+            Number::max(self.0[lane], other.0[lane])
+        }))
+    }
+
+    #[inline(always)]
+    fn below(self, other: Self) -> [bool; LANES] {
+        std::array::from_fn(|lane| self.0[lane] < other.0[lane])
+    }
+
+    #[inline(always)]
+    fn select(mask: [bool; LANES], yes: Self, no: Self) -> Self {
+        Plain(std::array::from_fn(|lane| {
+            if mask[lane] { yes.0[lane] } else { no.0[lane] }
+        }))
+    }
+
+    #[inline(always)]
+    fn any(mask: [bool; LANES]) -> bool {
+        mask.contains(&true)
     }
 }
 
@@ -71,6 +102,16 @@ impl Wide for Plain {
     fn gather(records: &[Record], members: &[u32; LANES]) -> [Self; 8] {
         let rows = members.map(|member| &records[member as usize].0);
         std::array::from_fn(|field| Plain(rows.map(|row| row[field])))
+    }
+
+    #[inline(always)]
+    fn from_lanes(lanes: [f64; LANES]) -> Self {
+        Plain(lanes)
+    }
+
+    #[inline(always)]
+    fn records(fields: [Self; 8]) -> [Record; LANES] {
+        std::array::from_fn(|lane| Record(fields.map(|field| field.0[lane])))
     }
 
     #[inline(always)]
@@ -89,11 +130,11 @@ mod x86 {
     use super::*;
 
     /// Two registers of AVX2. Made only in functions compiled for it, behind a check that it is there.
-    #[derive(Clone, Copy)]
+    #[derive(Clone, Copy, Debug)]
     pub struct Avx2([__m256d; 2]);
 
     /// One register of AVX-512, under the same rule.
-    #[derive(Clone, Copy)]
+    #[derive(Clone, Copy, Debug)]
     pub struct Avx512(__m512d);
 
     macro_rules! operator {
@@ -126,22 +167,111 @@ mod x86 {
 
     // SAFETY of all blocks below: called only where the feature was detected.
     impl Number for Avx2 {
+        type Mask = [__m256d; 2];
+
         #[inline(always)]
         fn splat(value: f64) -> Self {
             unsafe { Avx2([_mm256_set1_pd(value); 2]) }
         }
 
         #[inline(always)]
-        fn or_zero(self) -> Self {
+        fn sqrt(self) -> Self {
+            unsafe { Avx2([_mm256_sqrt_pd(self.0[0]), _mm256_sqrt_pd(self.0[1])]) }
+        }
+
+        #[inline(always)]
+        fn min(self, other: Self) -> Self {
             unsafe {
-                let zero = _mm256_setzero_pd();
-                Avx2([_mm256_max_pd(self.0[0], zero), _mm256_max_pd(self.0[1], zero)])
+                Avx2([
+                    _mm256_min_pd(self.0[0], other.0[0]),
+                    _mm256_min_pd(self.0[1], other.0[1]),
+                ])
             }
         }
 
         #[inline(always)]
-        fn sqrt(self) -> Self {
-            unsafe { Avx2([_mm256_sqrt_pd(self.0[0]), _mm256_sqrt_pd(self.0[1])]) }
+        fn max(self, other: Self) -> Self {
+            unsafe {
+                Avx2([
+                    _mm256_max_pd(self.0[0], other.0[0]),
+                    _mm256_max_pd(self.0[1], other.0[1]),
+                ])
+            }
+        }
+
+        #[inline(always)]
+        fn below(self, other: Self) -> [__m256d; 2] {
+            unsafe {
+                [
+                    _mm256_cmp_pd::<_CMP_LT_OQ>(self.0[0], other.0[0]),
+                    _mm256_cmp_pd::<_CMP_LT_OQ>(self.0[1], other.0[1]),
+                ]
+            }
+        }
+
+        #[inline(always)]
+        fn select(mask: [__m256d; 2], yes: Self, no: Self) -> Self {
+            unsafe {
+                Avx2([
+                    _mm256_blendv_pd(no.0[0], yes.0[0], mask[0]),
+                    _mm256_blendv_pd(no.0[1], yes.0[1], mask[1]),
+                ])
+            }
+        }
+
+        #[inline(always)]
+        fn any(mask: [__m256d; 2]) -> bool {
+            unsafe { _mm256_movemask_pd(_mm256_or_pd(mask[0], mask[1])) != 0 }
+        }
+    }
+
+    /// Rows and columns of a square exchanged.
+    #[inline(always)]
+    fn turned_4(rows: [__m256d; 4]) -> [__m256d; 4] {
+        let [r0, r1, r2, r3] = rows;
+        unsafe {
+            let (t0, t1) = (_mm256_unpacklo_pd(r0, r1), _mm256_unpackhi_pd(r0, r1));
+            let (t2, t3) = (_mm256_unpacklo_pd(r2, r3), _mm256_unpackhi_pd(r2, r3));
+            [
+                _mm256_permute2f128_pd::<0x20>(t0, t2),
+                _mm256_permute2f128_pd::<0x20>(t1, t3),
+                _mm256_permute2f128_pd::<0x31>(t0, t2),
+                _mm256_permute2f128_pd::<0x31>(t1, t3),
+            ]
+        }
+    }
+
+    /// Rows and columns of a square exchanged.
+    #[inline(always)]
+    fn turned_8(rows: [__m512d; 8]) -> [__m512d; 8] {
+        let [r0, r1, r2, r3, r4, r5, r6, r7] = rows;
+        unsafe {
+            let (t0, t1) = (_mm512_unpacklo_pd(r0, r1), _mm512_unpackhi_pd(r0, r1));
+            let (t2, t3) = (_mm512_unpacklo_pd(r2, r3), _mm512_unpackhi_pd(r2, r3));
+            let (t4, t5) = (_mm512_unpacklo_pd(r4, r5), _mm512_unpackhi_pd(r4, r5));
+            let (t6, t7) = (_mm512_unpacklo_pd(r6, r7), _mm512_unpackhi_pd(r6, r7));
+            macro_rules! low {
+                ($a:expr, $b:expr) => {
+                    _mm512_shuffle_f64x2::<0x88>($a, $b)
+                };
+            }
+            macro_rules! high {
+                ($a:expr, $b:expr) => {
+                    _mm512_shuffle_f64x2::<0xdd>($a, $b)
+                };
+            }
+            let (a0, a1, a2, a3) = (low!(t0, t2), low!(t1, t3), high!(t0, t2), high!(t1, t3));
+            let (b0, b1, b2, b3) = (low!(t4, t6), low!(t5, t7), high!(t4, t6), high!(t5, t7));
+            [
+                low!(a0, b0),
+                low!(a1, b1),
+                low!(a2, b2),
+                low!(a3, b3),
+                high!(a0, b0),
+                high!(a1, b1),
+                high!(a2, b2),
+                high!(a3, b3),
+            ]
         }
     }
 
@@ -149,41 +279,48 @@ mod x86 {
         #[inline(always)]
         fn gather(records: &[Record], members: &[u32; LANES]) -> [Self; 8] {
             // A square of four fields of four particles at a time.
-            macro_rules! square {
-                ($particle:literal, $field:literal) => {{
-                    macro_rules! row {
-                        ($i:literal) => {
-                            _mm256_load_pd(
-                                records[members[$particle + $i] as usize].0[$field..$field + 4].as_ptr(),
-                            )
-                        };
-                    }
-                    let (r0, r1, r2, r3) = (row!(0), row!(1), row!(2), row!(3));
-                    let (t0, t1) = (_mm256_unpacklo_pd(r0, r1), _mm256_unpackhi_pd(r0, r1));
-                    let (t2, t3) = (_mm256_unpacklo_pd(r2, r3), _mm256_unpackhi_pd(r2, r3));
-                    [
-                        _mm256_permute2f128_pd::<0x20>(t0, t2),
-                        _mm256_permute2f128_pd::<0x20>(t1, t3),
-                        _mm256_permute2f128_pd::<0x31>(t0, t2),
-                        _mm256_permute2f128_pd::<0x31>(t1, t3),
-                    ]
-                }};
-            }
             // SAFETY: half a record is 32 aligned bytes and its index is checked.
-            unsafe {
-                let (a, b) = (square!(0, 0), square!(4, 0));
-                let (c, d) = (square!(0, 4), square!(4, 4));
-                [
-                    Avx2([a[0], b[0]]),
-                    Avx2([a[1], b[1]]),
-                    Avx2([a[2], b[2]]),
-                    Avx2([a[3], b[3]]),
-                    Avx2([c[0], d[0]]),
-                    Avx2([c[1], d[1]]),
-                    Avx2([c[2], d[2]]),
-                    Avx2([c[3], d[3]]),
-                ]
-            }
+            let square = |particle: usize, field: usize| {
+                turned_4(std::array::from_fn(|i| unsafe {
+                    let record = &records[members[particle + i] as usize].0;
+                    _mm256_load_pd(record.as_ptr().add(field))
+                }))
+            };
+            let (a, b) = (square(0, 0), square(4, 0));
+            let (c, d) = (square(0, 4), square(4, 4));
+            [
+                Avx2([a[0], b[0]]),
+                Avx2([a[1], b[1]]),
+                Avx2([a[2], b[2]]),
+                Avx2([a[3], b[3]]),
+                Avx2([c[0], d[0]]),
+                Avx2([c[1], d[1]]),
+                Avx2([c[2], d[2]]),
+                Avx2([c[3], d[3]]),
+            ]
+        }
+
+        #[inline(always)]
+        fn from_lanes(lanes: [f64; LANES]) -> Self {
+            // SAFETY: both are eight doubles.
+            Avx2(unsafe { std::mem::transmute::<[f64; LANES], [__m256d; 2]>(lanes) })
+        }
+
+        #[inline(always)]
+        fn records(fields: [Self; 8]) -> [Record; LANES] {
+            let half = |particle: usize, field: usize| {
+                turned_4(std::array::from_fn(|i| fields[field + i].0[particle]))
+            };
+            let (a, b, c, d) = (half(0, 0), half(0, 4), half(1, 0), half(1, 4));
+            // SAFETY: both are eight doubles.
+            std::array::from_fn(|lane| unsafe {
+                let halves = if lane < 4 {
+                    [a[lane], b[lane]]
+                } else {
+                    [c[lane - 4], d[lane - 4]]
+                };
+                Record(std::mem::transmute::<[__m256d; 2], [f64; LANES]>(halves))
+            })
         }
 
         #[inline(always)]
@@ -194,19 +331,41 @@ mod x86 {
     }
 
     impl Number for Avx512 {
+        type Mask = __mmask8;
+
         #[inline(always)]
         fn splat(value: f64) -> Self {
             unsafe { Avx512(_mm512_set1_pd(value)) }
         }
 
         #[inline(always)]
-        fn or_zero(self) -> Self {
-            unsafe { Avx512(_mm512_max_pd(self.0, _mm512_setzero_pd())) }
+        fn sqrt(self) -> Self {
+            unsafe { Avx512(_mm512_sqrt_pd(self.0)) }
         }
 
         #[inline(always)]
-        fn sqrt(self) -> Self {
-            unsafe { Avx512(_mm512_sqrt_pd(self.0)) }
+        fn min(self, other: Self) -> Self {
+            unsafe { Avx512(_mm512_min_pd(self.0, other.0)) }
+        }
+
+        #[inline(always)]
+        fn max(self, other: Self) -> Self {
+            unsafe { Avx512(_mm512_max_pd(self.0, other.0)) }
+        }
+
+        #[inline(always)]
+        fn below(self, other: Self) -> __mmask8 {
+            unsafe { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0) }
+        }
+
+        #[inline(always)]
+        fn select(mask: __mmask8, yes: Self, no: Self) -> Self {
+            unsafe { Avx512(_mm512_mask_blend_pd(mask, no.0, yes.0)) }
+        }
+
+        #[inline(always)]
+        fn any(mask: __mmask8) -> bool {
+            mask != 0
         }
     }
 
@@ -215,41 +374,21 @@ mod x86 {
         #[inline(always)]
         fn gather(records: &[Record], members: &[u32; LANES]) -> [Self; 8] {
             // SAFETY: a record is 64 aligned bytes and its index is checked.
-            unsafe {
-                macro_rules! row {
-                    ($i:literal) => {
-                        _mm512_load_pd(records[members[$i] as usize].0.as_ptr())
-                    };
-                }
-                let (r0, r1, r2, r3) = (row!(0), row!(1), row!(2), row!(3));
-                let (r4, r5, r6, r7) = (row!(4), row!(5), row!(6), row!(7));
-                let (t0, t1) = (_mm512_unpacklo_pd(r0, r1), _mm512_unpackhi_pd(r0, r1));
-                let (t2, t3) = (_mm512_unpacklo_pd(r2, r3), _mm512_unpackhi_pd(r2, r3));
-                let (t4, t5) = (_mm512_unpacklo_pd(r4, r5), _mm512_unpackhi_pd(r4, r5));
-                let (t6, t7) = (_mm512_unpacklo_pd(r6, r7), _mm512_unpackhi_pd(r6, r7));
-                macro_rules! low {
-                    ($a:expr, $b:expr) => {
-                        _mm512_shuffle_f64x2::<0x88>($a, $b)
-                    };
-                }
-                macro_rules! high {
-                    ($a:expr, $b:expr) => {
-                        _mm512_shuffle_f64x2::<0xdd>($a, $b)
-                    };
-                }
-                let (a0, a1, a2, a3) = (low!(t0, t2), low!(t1, t3), high!(t0, t2), high!(t1, t3));
-                let (b0, b1, b2, b3) = (low!(t4, t6), low!(t5, t7), high!(t4, t6), high!(t5, t7));
-                [
-                    Avx512(low!(a0, b0)),
-                    Avx512(low!(a1, b1)),
-                    Avx512(low!(a2, b2)),
-                    Avx512(low!(a3, b3)),
-                    Avx512(high!(a0, b0)),
-                    Avx512(high!(a1, b1)),
-                    Avx512(high!(a2, b2)),
-                    Avx512(high!(a3, b3)),
-                ]
-            }
+            let rows = members.map(|member| unsafe { _mm512_load_pd(records[member as usize].0.as_ptr()) });
+            turned_8(rows).map(Avx512)
+        }
+
+        #[inline(always)]
+        fn from_lanes(lanes: [f64; LANES]) -> Self {
+            // SAFETY: both are eight doubles.
+            Avx512(unsafe { std::mem::transmute::<[f64; LANES], __m512d>(lanes) })
+        }
+
+        #[inline(always)]
+        fn records(fields: [Self; 8]) -> [Record; LANES] {
+            // SAFETY: both are eight doubles.
+            turned_8(fields.map(|field| field.0))
+                .map(|row| Record(unsafe { std::mem::transmute::<__m512d, [f64; LANES]>(row) }))
         }
 
         #[inline(always)]
@@ -275,6 +414,12 @@ mod tests {
         let mixed = (a + b) * a - b / (a * a + W::splat(1.0));
         numbers.extend(mixed.or_zero().sqrt().lanes());
         numbers.push(mixed.total());
+        let smaller = a.below(b);
+        numbers.extend(W::select(smaller, a.min(b), mixed.max(b)).lanes());
+        numbers.extend(mixed.round().lanes());
+        numbers.push(if W::any(smaller) { 1.0 } else { 0.0 });
+        numbers.extend(W::from_lanes(a.lanes()).lanes());
+        numbers.extend(W::records(fields).iter().flat_map(|record| record.0));
         numbers
     }
 
