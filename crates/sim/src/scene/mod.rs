@@ -8,12 +8,17 @@ mod profiles;
 mod record;
 mod run_prescribed;
 mod run_sph;
+mod sedimentation;
 mod setup;
 
 pub use check::check;
 pub use collision::{BinaryCollision, IntegratorChoice, Material, Normal, Partner, Rolling, Tangential};
 pub use describe::describe;
 pub use observables::observables;
+pub use sedimentation::{
+    Arrangement, Cohesion, Container, Detection, Dimensions, Floor, GrainClass, GrainDrag, Lift,
+    Sedimentation, Sides, SlicePorosity, StillFluid, Until, Voidage,
+};
 
 use crate::outcome::{Control, Failure, Outcome};
 
