@@ -10,11 +10,11 @@ pub mod rolling;
 pub mod tangential;
 mod touch;
 
-pub use body::Body;
+pub use body::{Body, Couple};
 pub use laws::{ContactLaws, Dissipation, Reaction};
 pub use normal::{
     Contact, EffectiveMass, HertzLiteral, HertzTsuji, HertzViscoelastic, LinearSpringDashpot, NormalLaw,
 };
 pub use rolling::{Rolling, RollingLaw, RollingResistance};
 pub use tangential::{CundallStrack, HaffWerner, Mindlin, Slip, SlipLimit, TangentialLaw};
-pub use touch::{Motion, Touch};
+pub use touch::{Meeting, Motion, Touch};

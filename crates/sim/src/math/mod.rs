@@ -1,8 +1,10 @@
 //! Vectors and the few numbers every room needs.
 
 mod number;
+mod vector;
 
 pub use number::Number;
+pub use vector::Vector;
 
 /// A vector in SI units.
 pub type Vec3 = nalgebra::Vector3<f64>;

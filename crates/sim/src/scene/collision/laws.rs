@@ -9,7 +9,7 @@ use crate::contact::{
     Contact, HertzLiteral, HertzTsuji, HertzViscoelastic, LinearSpringDashpot, NormalLaw, RollingLaw, Slip,
     TangentialLaw, rolling,
 };
-use crate::math::Vec3;
+use crate::math::{Number, Vector};
 
 /// A normal law with its derived constants.
 #[derive(Clone, Copy, Debug)]
@@ -55,7 +55,7 @@ impl AnyNormal {
 
 impl NormalLaw for AnyNormal {
     #[inline]
-    fn force(&self, contact: &Contact) -> f64 {
+    fn force<N: Number>(&self, contact: &Contact<N>) -> N {
         match self {
             AnyNormal::Linear(law) => law.force(contact),
             AnyNormal::Viscoelastic(law) => law.force(contact),
@@ -76,7 +76,7 @@ impl NormalLaw for AnyNormal {
 
 impl TangentialLaw for Tangential {
     #[inline]
-    fn force(&self, slip: &Slip, history: Vec3) -> (Vec3, Vec3) {
+    fn force<N: Number>(&self, slip: &Slip<N>, history: Vector<N>) -> (Vector<N>, Vector<N>) {
         match self {
             Tangential::None => ().force(slip, history),
             Tangential::HaffWerner(law) => law.force(slip, history),
@@ -97,7 +97,7 @@ impl TangentialLaw for Tangential {
 
 impl RollingLaw for Rolling {
     #[inline]
-    fn torque(&self, rolling: &rolling::Rolling) -> Vec3 {
+    fn torque<N: Number>(&self, rolling: &rolling::Rolling<N>) -> Vector<N> {
         match self {
             Rolling::None => ().torque(rolling),
             Rolling::Resistance(law) => law.torque(rolling),

@@ -5,7 +5,7 @@ use super::model::{BinaryCollision, IntegratorChoice, Partner, Rolling, Tangenti
 use super::pair::{NORMAL, Pair};
 use crate::contact::{Body, Contact, ContactLaws, NormalLaw, Slip, TangentialLaw};
 use crate::integrator::Bodies;
-use crate::math::Vec3;
+use crate::math::{Vec3, Vector};
 
 pub type ScenePair = Pair<AnyNormal, Tangential, Rolling>;
 
@@ -107,8 +107,8 @@ impl<'a> Impact<'a> {
         };
         let normal = self.contact_time() / fewest;
         let slip = Slip {
-            velocity: Vec3::zeros(),
-            normal: NORMAL,
+            velocity: Vector::zeros(),
+            normal: NORMAL.into(),
             normal_force: 0.0,
             overlap: 0.0,
             reduced_mass: self.contact.reduced_mass,
