@@ -3,6 +3,7 @@
 //! Two bodies that touch are described once by a [`Touch`]; [`ContactLaws`] turns it into a
 //! [`Reaction`]. Absent physics is the unit type `()`.
 
+mod any;
 mod body;
 mod laws;
 pub mod normal;
@@ -10,6 +11,7 @@ pub mod rolling;
 pub mod tangential;
 mod touch;
 
+pub use any::{AnyNormal, AnyRolling, AnyTangential};
 pub use body::{Body, Couple};
 pub use laws::{ContactLaws, Dissipation, Reaction};
 pub use normal::{

@@ -2,10 +2,12 @@
 //! particles beyond a periodic side so that no sum ever wraps a distance.
 
 mod cells;
+mod near_pairs;
 mod rows;
 mod wide;
 
 pub use cells::CellGrid;
+pub use near_pairs::{Period, Search, visit_near_pairs};
 pub use rows::{Image, LANES, Rows, images};
 pub use wide::Record;
 #[cfg(target_arch = "x86_64")]

@@ -2,7 +2,6 @@
 
 mod check;
 mod describe;
-mod laws;
 mod model;
 mod observables;
 mod pair;
