@@ -1,8 +1,10 @@
 //! Vectors and the few numbers every room needs.
 
+pub mod elementary;
 mod number;
 
 pub use number::Number;
+pub(crate) use number::bits;
 
 /// A vector in SI units.
 pub type Vec3 = nalgebra::Vector3<f64>;
