@@ -1,9 +1,11 @@
 //! Vectors and the few numbers every room needs.
 
+pub mod elementary;
 mod number;
 mod vector;
 
 pub use number::Number;
+pub(crate) use number::bits;
 pub use vector::Vector;
 
 /// A vector in SI units.

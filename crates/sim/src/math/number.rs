@@ -25,6 +25,11 @@ pub trait Number:
     /// Whether the mask holds in any lane.
     fn any(mask: Self::Mask) -> bool;
 
+    /// A positive number at or above 2.2e-308 as (m, e) with m 2^e, 1 ≤ m < 2, e whole.
+    fn split_exponent(self) -> (Self, Self);
+    /// The number times 2^`exponent`, a whole number from −1022 to 1023.
+    fn scaled_by_power_of_two(self, exponent: Self) -> Self;
+
     /// The number, or zero where it is negative.
     #[inline(always)]
     fn or_zero(self) -> Self {
@@ -38,6 +43,18 @@ pub trait Number:
         let shift = Self::splat(6_755_399_441_055_744.0);
         (self + shift) - shift
     }
+}
+
+/// How a double holds its exponent and mantissa, for those who reach into its bits.
+pub(crate) mod bits {
+    /// Bits of the mantissa.
+    pub const MANTISSA: u64 = (1 << 52) - 1;
+    /// Bits of 1.
+    pub const ONE: u64 = 0x3ff0_0000_0000_0000;
+    /// Bits of 2⁵²: whole numbers up to there stand in the mantissa as they are.
+    pub const WHOLE: u64 = 0x4330_0000_0000_0000;
+    /// 2⁵² plus what is added to every exponent: 1023.
+    pub const SHIFT: f64 = 4_503_599_627_370_496.0 + 1023.0;
 }
 
 impl Number for f64 {
@@ -77,5 +94,19 @@ impl Number for f64 {
     #[inline(always)]
     fn any(mask: bool) -> bool {
         mask
+    }
+
+    #[inline(always)]
+    fn split_exponent(self) -> (Self, Self) {
+        let all = self.to_bits();
+        (
+            f64::from_bits(all & bits::MANTISSA | bits::ONE),
+            f64::from_bits(all >> 52 | bits::WHOLE) - bits::SHIFT,
+        )
+    }
+
+    #[inline(always)]
+    fn scaled_by_power_of_two(self, exponent: Self) -> Self {
+        self * f64::from_bits((exponent + bits::SHIFT).to_bits() << 52)
     }
 }

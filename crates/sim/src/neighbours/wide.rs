@@ -7,6 +7,8 @@ use std::ops::{Add, Div, Mul, Sub};
 
 use super::LANES;
 use crate::math::Number;
+#[cfg(target_arch = "x86_64")]
+use crate::math::bits;
 
 /// Eight numbers of a particle, one cache line.
 #[derive(Clone, Copy, Debug, Default)]
@@ -94,6 +96,21 @@ impl Number for Plain {
     #[inline(always)]
     fn any(mask: [bool; LANES]) -> bool {
         mask.contains(&true)
+    }
+
+    #[inline(always)]
+    fn split_exponent(self) -> (Self, Self) {
+        (
+            Plain(self.0.map(|lane| lane.split_exponent().0)),
+            Plain(self.0.map(|lane| lane.split_exponent().1)),
+        )
+    }
+
+    #[inline(always)]
+    fn scaled_by_power_of_two(self, exponent: Self) -> Self {
+        Plain(std::array::from_fn(|lane| {
+            self.0[lane].scaled_by_power_of_two(exponent.0[lane])
+        }))
     }
 }
 
@@ -222,6 +239,31 @@ mod x86 {
         #[inline(always)]
         fn any(mask: [__m256d; 2]) -> bool {
             unsafe { _mm256_movemask_pd(_mm256_or_pd(mask[0], mask[1])) != 0 }
+        }
+
+        #[inline(always)]
+        fn split_exponent(self) -> (Self, Self) {
+            let mantissa = self.0.map(|half| unsafe {
+                let one = _mm256_set1_epi64x(bits::ONE as i64);
+                let kept = _mm256_set1_epi64x(bits::MANTISSA as i64);
+                let all = _mm256_castpd_si256(half);
+                _mm256_castsi256_pd(_mm256_or_si256(_mm256_and_si256(all, kept), one))
+            });
+            let exponent = self.0.map(|half| unsafe {
+                let whole = _mm256_set1_epi64x(bits::WHOLE as i64);
+                let raw = _mm256_srli_epi64::<52>(_mm256_castpd_si256(half));
+                _mm256_castsi256_pd(_mm256_or_si256(raw, whole))
+            });
+            (Avx2(mantissa), Avx2(exponent) - Self::splat(bits::SHIFT))
+        }
+
+        #[inline(always)]
+        fn scaled_by_power_of_two(self, exponent: Self) -> Self {
+            let shifted = exponent + Self::splat(bits::SHIFT);
+            let power = shifted.0.map(|half| unsafe {
+                _mm256_castsi256_pd(_mm256_slli_epi64::<52>(_mm256_castpd_si256(half)))
+            });
+            self * Avx2(power)
         }
     }
 
@@ -367,6 +409,29 @@ mod x86 {
         fn any(mask: __mmask8) -> bool {
             mask != 0
         }
+
+        #[inline(always)]
+        fn split_exponent(self) -> (Self, Self) {
+            unsafe {
+                let all = _mm512_castpd_si512(self.0);
+                let kept = _mm512_and_si512(all, _mm512_set1_epi64(bits::MANTISSA as i64));
+                let mantissa = _mm512_or_si512(kept, _mm512_set1_epi64(bits::ONE as i64));
+                let whole = _mm512_set1_epi64(bits::WHOLE as i64);
+                let exponent = _mm512_or_si512(_mm512_srli_epi64::<52>(all), whole);
+                (
+                    Avx512(_mm512_castsi512_pd(mantissa)),
+                    Avx512(_mm512_castsi512_pd(exponent)) - Self::splat(bits::SHIFT),
+                )
+            }
+        }
+
+        #[inline(always)]
+        fn scaled_by_power_of_two(self, exponent: Self) -> Self {
+            let shifted = exponent + Self::splat(bits::SHIFT);
+            let power =
+                unsafe { _mm512_castsi512_pd(_mm512_slli_epi64::<52>(_mm512_castpd_si512(shifted.0))) };
+            self * Avx512(power)
+        }
     }
 
     impl Wide for Avx512 {
@@ -421,6 +486,36 @@ mod tests {
         numbers.extend(W::from_lanes(a.lanes()).lanes());
         numbers.extend(W::records(fields).iter().flat_map(|record| record.0));
         numbers
+    }
+
+    /// Exponentials and logarithms, the ends of their range among them.
+    fn elementary<W: Wide>() -> Vec<u64> {
+        use crate::math::elementary::{exp, ln, power};
+        let mut values = vec![0.0, 1e-310, f64::INFINITY, f64::NAN, -5.0, 1.0, 800.0, -800.0];
+        values.extend((0..4096).map(|i| (f64::from(i) * 0.618_033_988_749_894_9).fract() * 1400.0 - 700.0));
+        let (groups, _) = values.as_chunks::<LANES>();
+        let mut numbers = Vec::new();
+        for &lanes in groups {
+            let x = W::from_lanes(lanes);
+            numbers.extend(exp(x).lanes());
+            numbers.extend(ln(x).lanes());
+            numbers.extend(power(x * x, W::splat(-0.3)).lanes());
+        }
+        numbers.iter().map(|number| number.to_bits()).collect()
+    }
+
+    #[test]
+    fn elementary_functions_have_the_same_bits_on_all_registers() {
+        let plain = elementary::<Plain>();
+        #[cfg(target_arch = "x86_64")]
+        {
+            if is_x86_feature_detected!("avx2") {
+                assert!(elementary::<Avx2>() == plain);
+            }
+            if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
+                assert!(elementary::<Avx512>() == plain);
+            }
+        }
     }
 
     #[test]
