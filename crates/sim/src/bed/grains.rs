@@ -40,13 +40,27 @@ impl Grains {
             moving: moving.len(),
             ..Grains::default()
         };
-        for (number, (grain, free)) in
-            moving.iter().map(|grain| (grain, 1.0)).chain(fixed.iter().map(|grain| (grain, 0.0))).enumerate()
+        for (number, (grain, free)) in moving
+            .iter()
+            .map(|grain| (grain, 1.0))
+            .chain(fixed.iter().map(|grain| (grain, 0.0)))
+            .enumerate()
         {
             let (x, v, w) = (grain.position, grain.velocity, grain.angular_velocity);
             let body = &grain.body;
-            grains.motion.push(Record([x.x, x.y, x.z, body.radius, v.x, v.y, v.z, free / body.mass]));
-            grains.spin.push(Record([w.x, w.y, w.z, free / body.inertia, 1.0, 0.0, 0.0, 0.0]));
+            grains.motion.push(Record([
+                x.x,
+                x.y,
+                x.z,
+                body.radius,
+                v.x,
+                v.y,
+                v.z,
+                free / body.mass,
+            ]));
+            grains
+                .spin
+                .push(Record([w.x, w.y, w.z, free / body.inertia, 1.0, 0.0, 0.0, 0.0]));
             grains.number.push(number as u32);
             grains.class.push(grain.class);
         }
@@ -145,9 +159,14 @@ impl Grains {
         let place = |grain: u32| &self.motion[grain as usize].0;
         order.sort_unstable_by(|a, b| {
             let ties = || (0..3).map(|axis| place(a.1)[axis].total_cmp(&place(b.1)[axis]));
-            a.0.cmp(&b.0).then_with(|| ties().fold(std::cmp::Ordering::Equal, |all, axis| all.then(axis)))
+            a.0.cmp(&b.0)
+                .then_with(|| ties().fold(std::cmp::Ordering::Equal, |all, axis| all.then(axis)))
         });
-        if order.iter().enumerate().all(|(place, &(_, grain))| place == grain as usize) {
+        if order
+            .iter()
+            .enumerate()
+            .all(|(place, &(_, grain))| place == grain as usize)
+        {
             return;
         }
         let moving = self.moving;
@@ -157,9 +176,15 @@ impl Grains {
         };
         arranged(&mut self.motion);
         arranged(&mut self.spin);
-        let number: Vec<u32> = order.iter().map(|&(_, grain)| self.number[grain as usize]).collect();
+        let number: Vec<u32> = order
+            .iter()
+            .map(|&(_, grain)| self.number[grain as usize])
+            .collect();
         self.number[..moving].copy_from_slice(&number);
-        let class: Vec<u16> = order.iter().map(|&(_, grain)| self.class[grain as usize]).collect();
+        let class: Vec<u16> = order
+            .iter()
+            .map(|&(_, grain)| self.class[grain as usize])
+            .collect();
         self.class[..moving].copy_from_slice(&class);
     }
 }

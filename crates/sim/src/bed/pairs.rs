@@ -56,7 +56,9 @@ impl PairList {
             .chunks(LANES)
             .map(|chunk| Block {
                 members: [0, 1].map(|end| {
-                    std::array::from_fn(|lane| chunk.get(lane).map_or(filling[end], |pair| [pair.0, pair.1][end]))
+                    std::array::from_fn(|lane| {
+                        chunk.get(lane).map_or(filling[end], |pair| [pair.0, pair.1][end])
+                    })
                 }),
             })
             .collect();
@@ -69,7 +71,13 @@ impl PairList {
     }
 
     /// All near pairs of grains.
-    pub fn of_grains(grains: &Grains, search: Search, period: Period, reach: f64, looked_at: &mut u64) -> Self {
+    pub fn of_grains(
+        grains: &Grains,
+        search: Search,
+        period: Period,
+        reach: f64,
+        looked_at: &mut u64,
+    ) -> Self {
         let mut pairs = Vec::new();
         *looked_at += visit_near_pairs(search, grains.spheres(), grains.moving, period, reach, |i, j| {
             pairs.push((i, j));
@@ -106,7 +114,11 @@ impl PairList {
             let displacement = self.histories[block].lane(lane);
             if displacement != Vector::zeros() {
                 let [a, b] = names(places);
-                entries.push(if a < b { (a, b, displacement) } else { (b, a, -displacement) });
+                entries.push(if a < b {
+                    (a, b, displacement)
+                } else {
+                    (b, a, -displacement)
+                });
             }
         }
         Memories::new(entries, count)
@@ -147,13 +159,18 @@ impl Memories {
         }
         Memories {
             starts,
-            entries: entries.into_iter().map(|(_, b, displacement)| (b, displacement)).collect(),
+            entries: entries
+                .into_iter()
+                .map(|(_, b, displacement)| (b, displacement))
+                .collect(),
         }
     }
 
     fn of(&self, a: u32, b: u32) -> Option<Vector<f64>> {
         let (first, last) = (*self.starts.get(a as usize)?, *self.starts.get(a as usize + 1)?);
-        let found = self.entries[first as usize..last as usize].iter().find(|(other, _)| *other == b);
+        let found = self.entries[first as usize..last as usize]
+            .iter()
+            .find(|(other, _)| *other == b);
         found.map(|(_, displacement)| *displacement)
     }
 }

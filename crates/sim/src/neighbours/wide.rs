@@ -464,6 +464,45 @@ mod x86 {
     }
 }
 
+/// Work written once and compiled for each kind of register.
+pub trait WideWork {
+    type Output;
+
+    /// Must be `#[inline(always)]`, to be compiled with the instructions of its caller.
+    fn run<W: Wide>(self) -> Self::Output;
+}
+
+/// Does the work in the widest registers the machine has.
+pub fn in_widest<J: WideWork>(work: J) -> J::Output {
+    #[cfg(target_arch = "x86_64")]
+    {
+        if is_x86_feature_detected!("avx512f")
+            && is_x86_feature_detected!("avx512dq")
+            && is_x86_feature_detected!("avx512vl")
+        {
+            // SAFETY: the features were just detected.
+            return unsafe { in_avx512(work) };
+        }
+        if is_x86_feature_detected!("avx2") {
+            // SAFETY: the feature was just detected.
+            return unsafe { in_avx2(work) };
+        }
+    }
+    work.run::<Plain>()
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+fn in_avx512<J: WideWork>(work: J) -> J::Output {
+    work.run::<Avx512>()
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn in_avx2<J: WideWork>(work: J) -> J::Output {
+    work.run::<Avx2>()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
