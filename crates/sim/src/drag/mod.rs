@@ -14,19 +14,45 @@ mod dallavalle;
 mod di_felice;
 mod schiller_naumann;
 mod stokes;
+pub mod voidage;
 
 pub use coulson_richardson::CoulsonRichardson;
 pub use dallavalle::Dallavalle;
 pub use di_felice::DiFelice;
 pub use schiller_naumann::SchillerNaumann;
 pub use stokes::Stokes;
+pub use voidage::{Hindered, VoidageLaw};
 
 use std::f64::consts::PI;
+
+use crate::math::Number;
 
 /// A drag law: parameters in, numbers out.
 pub trait DragLaw: Copy {
     /// Drag over Stokes drag at Reynolds number `re` [-] and porosity `porosity` [-].
-    fn factor(&self, re: f64, porosity: f64) -> f64;
+    fn factor<N: Number>(&self, re: N, porosity: N) -> N;
+}
+
+/// No drag at all.
+impl DragLaw for () {
+    #[inline(always)]
+    fn factor<N: Number>(&self, _re: N, _porosity: N) -> N {
+        N::splat(0.0)
+    }
+}
+
+/// Drag per superficial slip β [kg/s] of grains of `diameter` [m] at slip speed `slip` [m/s] in a
+/// fluid of `density` [kg/m³] and `viscosity` [Pa s].
+#[inline(always)]
+pub fn coefficient<N: Number>(
+    law: &impl DragLaw,
+    [density, viscosity]: [f64; 2],
+    diameter: N,
+    slip: N,
+    porosity: N,
+) -> N {
+    let re = N::splat(density) * diameter * slip / N::splat(viscosity);
+    N::splat(3.0 * PI * viscosity) * diameter * law.factor(re, porosity)
 }
 
 /// The fluid and the size a drag coefficient needs.
@@ -49,7 +75,8 @@ impl DragScale {
     /// Drag per superficial slip β [kg/s] at slip speed `slip` [m/s].
     #[inline]
     pub fn coefficient(&self, law: &impl DragLaw, slip: f64, porosity: f64) -> f64 {
-        3.0 * PI * self.viscosity * self.diameter * law.factor(self.reynolds(slip), porosity)
+        let fluid = [self.density, self.viscosity];
+        coefficient(law, fluid, self.diameter, slip, porosity)
     }
 
     /// Superficial slip speed [m/s] at which the drag equals `force` [N].

@@ -25,9 +25,10 @@ pub trait Number:
     /// Whether the mask holds in any lane.
     fn any(mask: Self::Mask) -> bool;
 
-    /// A positive number at or above 2.2e-308 as (m, e) with m 2^e, 1 ≤ m < 2, e whole.
+    /// A positive number at or above 2.2e-308 as (m, e) with m 2^e, √½ ≤ m < √2, e whole.
     fn split_exponent(self) -> (Self, Self);
-    /// The number times 2^`exponent`, a whole number from −1022 to 1023.
+    /// The number times 2^`exponent`, a whole number from −1022 to 1023; zero at −1023 and infinite
+    /// at 1024.
     fn scaled_by_power_of_two(self, exponent: Self) -> Self;
 
     /// The number, or zero where it is negative.
@@ -49,8 +50,10 @@ pub trait Number:
 pub(crate) mod bits {
     /// Bits of the mantissa.
     pub const MANTISSA: u64 = (1 << 52) - 1;
-    /// Bits of 1.
-    pub const ONE: u64 = 0x3ff0_0000_0000_0000;
+    /// Bits of √½, and how far they are from those of 1: with so much added, the exponent field
+    /// changes at √½ times the powers of two.
+    pub const ROOT_HALF: u64 = 0x3fe6_a09e_667f_3bcd;
+    pub const TO_ONE: u64 = 0x3ff0_0000_0000_0000 - ROOT_HALF;
     /// Bits of 2⁵²: whole numbers up to there stand in the mantissa as they are.
     pub const WHOLE: u64 = 0x4330_0000_0000_0000;
     /// 2⁵² plus what is added to every exponent: 1023.
@@ -98,9 +101,9 @@ impl Number for f64 {
 
     #[inline(always)]
     fn split_exponent(self) -> (Self, Self) {
-        let all = self.to_bits();
+        let all = self.to_bits().wrapping_add(bits::TO_ONE);
         (
-            f64::from_bits(all & bits::MANTISSA | bits::ONE),
+            f64::from_bits((all & bits::MANTISSA) + bits::ROOT_HALF),
             f64::from_bits(all >> 52 | bits::WHOLE) - bits::SHIFT,
         )
     }

@@ -243,16 +243,18 @@ mod x86 {
 
         #[inline(always)]
         fn split_exponent(self) -> (Self, Self) {
-            let mantissa = self.0.map(|half| unsafe {
-                let one = _mm256_set1_epi64x(bits::ONE as i64);
-                let kept = _mm256_set1_epi64x(bits::MANTISSA as i64);
-                let all = _mm256_castpd_si256(half);
-                _mm256_castsi256_pd(_mm256_or_si256(_mm256_and_si256(all, kept), one))
+            let all = self.0.map(|half| unsafe {
+                let to_one = _mm256_set1_epi64x(bits::TO_ONE as i64);
+                _mm256_add_epi64(_mm256_castpd_si256(half), to_one)
             });
-            let exponent = self.0.map(|half| unsafe {
+            let mantissa = all.map(|half| unsafe {
+                let kept = _mm256_and_si256(half, _mm256_set1_epi64x(bits::MANTISSA as i64));
+                let root_half = _mm256_set1_epi64x(bits::ROOT_HALF as i64);
+                _mm256_castsi256_pd(_mm256_add_epi64(kept, root_half))
+            });
+            let exponent = all.map(|half| unsafe {
                 let whole = _mm256_set1_epi64x(bits::WHOLE as i64);
-                let raw = _mm256_srli_epi64::<52>(_mm256_castpd_si256(half));
-                _mm256_castsi256_pd(_mm256_or_si256(raw, whole))
+                _mm256_castsi256_pd(_mm256_or_si256(_mm256_srli_epi64::<52>(half), whole))
             });
             (Avx2(mantissa), Avx2(exponent) - Self::splat(bits::SHIFT))
         }
@@ -413,9 +415,10 @@ mod x86 {
         #[inline(always)]
         fn split_exponent(self) -> (Self, Self) {
             unsafe {
-                let all = _mm512_castpd_si512(self.0);
+                let to_one = _mm512_set1_epi64(bits::TO_ONE as i64);
+                let all = _mm512_add_epi64(_mm512_castpd_si512(self.0), to_one);
                 let kept = _mm512_and_si512(all, _mm512_set1_epi64(bits::MANTISSA as i64));
-                let mantissa = _mm512_or_si512(kept, _mm512_set1_epi64(bits::ONE as i64));
+                let mantissa = _mm512_add_epi64(kept, _mm512_set1_epi64(bits::ROOT_HALF as i64));
                 let whole = _mm512_set1_epi64(bits::WHOLE as i64);
                 let exponent = _mm512_or_si512(_mm512_srli_epi64::<52>(all), whole);
                 (
