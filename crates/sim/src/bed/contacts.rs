@@ -56,11 +56,12 @@ impl<W: Wide> Party<W> {
 #[inline(always)]
 fn couple<W: Wide>(a: &Party<W>, b: &Party<W>) -> Couple<W> {
     let (zero, one) = (W::splat(0.0), W::splat(1.0));
-    let mass = |inverse: W, other: W| one / W::select(zero.below(inverse), inverse, other);
     let (wa, wb) = (a.inverse_mass, b.inverse_mass);
+    let mass_a = one / W::select(zero.below(wa), wa, wb);
+    let mass_b = one / W::select(zero.below(wb), wb, wa);
     Couple {
         reduced_mass: one / (wa + wb),
-        mean_mass: W::splat(0.5) * (mass(wa, wb) + mass(wb, wa)),
+        mean_mass: W::splat(0.5) * (mass_a + mass_b),
         reduced_radius: a.radius * b.radius / (a.radius + b.radius),
         reduced_inertia: one / (a.inverse_inertia + b.inverse_inertia),
         smaller_radius: a.radius.min(b.radius),
@@ -115,9 +116,10 @@ impl Interaction {
                 self.laws
                     .react(&touch, remembered(history), elapsed, self.time_step);
             force = Vector::select(touches, reaction.force, force);
-            torques = reaction
-                .torques
-                .map(|torque| Vector::select(touches, torque, Vector::zeros()));
+            torques = [
+                Vector::select(touches, reaction.torques[0], Vector::zeros()),
+                Vector::select(touches, reaction.torques[1], Vector::zeros()),
+            ];
             *live = remember(history, touches, displacement);
             *deepest = deepest.max(meeting.overlap / (couple.smaller_radius + couple.smaller_radius));
         } else if *live {
@@ -128,41 +130,54 @@ impl Interaction {
             let pull = attraction.between_grains(&meeting, contact_distance, [a.radius, b.radius]);
             force = force - meeting.normal * pull;
         }
-        let effort = |force: Vector<W>, torque: Vector<W>| {
-            W::records([
-                force.x, force.y, force.z, zero, torque.x, torque.y, torque.z, zero,
-            ])
-        };
         Some([effort(force, torques[0]), effort(-force, torques[1])])
     }
 
     /// From the second centres to the first, the nearest way round periodic sides.
     #[inline(always)]
     fn between<W: Wide>(&self, a: &[W; 8], b: &[W; 8]) -> Vector<W> {
-        let along = |axis: usize| {
-            let apart = a[axis] - b[axis];
-            let side = self.period[axis];
-            if side > 0.0 {
-                apart - W::splat(side) * (apart * W::splat(1.0 / side)).round()
-            } else {
-                apart
-            }
-        };
-        Vector::new(along(0), along(1), along(2))
+        Vector::new(
+            nearest(a[0] - b[0], self.period[0]),
+            nearest(a[1] - b[1], self.period[1]),
+            nearest(a[2] - b[2], self.period[2]),
+        )
     }
+}
+
+/// The shortest way between two positions on a periodic side; a side of zero is open.
+#[inline(always)]
+fn nearest<W: Wide>(apart: W, side: f64) -> W {
+    if side > 0.0 {
+        apart - W::splat(side) * (apart * W::splat(1.0 / side)).round()
+    } else {
+        apart
+    }
+}
+
+/// Eight records of a force and a torque.
+#[inline(always)]
+pub(super) fn effort<W: Wide>(force: Vector<W>, torque: Vector<W>) -> [Record; LANES] {
+    let zero = W::splat(0.0);
+    W::records([
+        force.x, force.y, force.z, zero, torque.x, torque.y, torque.z, zero,
+    ])
 }
 
 #[inline(always)]
 pub(super) fn remembered<W: Wide>(history: &History) -> Vector<W> {
-    let [x, y, z] = history.0.map(|component| W::from_lanes(component.0));
-    Vector::new(x, y, z)
+    let [x, y, z] = &history.0;
+    Vector::new(W::from_lanes(x.0), W::from_lanes(y.0), W::from_lanes(z.0))
 }
 
 /// Keeps the displacements of pairs that touch; says whether there is anything to remember.
 #[inline(always)]
 pub(super) fn remember<W: Wide>(history: &mut History, touches: W::Mask, displacement: Vector<W>) -> bool {
     let kept = Vector::select(touches, displacement, Vector::zeros());
-    history.0 = [kept.x, kept.y, kept.z].map(|component| Eight(component.lanes()));
+    history.0 = [
+        Eight(kept.x.lanes()),
+        Eight(kept.y.lanes()),
+        Eight(kept.z.lanes()),
+    ];
     true
 }
 

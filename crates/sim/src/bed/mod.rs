@@ -13,7 +13,7 @@ mod walls;
 pub use attraction::Attraction;
 pub use contacts::{Interaction, Laws};
 pub use grains::{Grain, Grains};
-pub use motion::{Resistance, Surroundings};
+pub use motion::Surroundings;
 pub use walls::Wall;
 
 use crate::math::Vec3;
@@ -63,10 +63,10 @@ pub struct Work {
 }
 
 /// Grains, what acts on them, and where they are.
-pub struct Bed<D> {
+pub struct Bed {
     pub grains: Grains,
     pub interaction: Interaction,
-    pub surroundings: Surroundings<D>,
+    pub surroundings: Surroundings,
     pub listing: Listing,
     pub work: Work,
     /// Greatest overlap over the smaller diameter since it was last set to zero.
@@ -80,12 +80,12 @@ pub struct Bed<D> {
     smallest: f64,
 }
 
-impl<D: Resistance> Bed<D> {
+impl Bed {
     pub fn new(
         grains: Grains,
         walls: &[Wall],
         interaction: Interaction,
-        surroundings: Surroundings<D>,
+        surroundings: Surroundings,
         listing: Listing,
     ) -> Self {
         let smallest = grains

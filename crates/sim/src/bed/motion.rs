@@ -9,32 +9,28 @@
 
 use std::f64::consts::PI;
 
+use crate::drag::{self, AnyDrag};
 use crate::math::{Number, Vector, elementary};
 use crate::neighbours::{LANES, Record, Wide, WideWork};
 
 use super::grains::Grains;
 
-/// Drag of a fluid on each grain.
-pub trait Resistance: Copy {
-    /// Force per interstitial slip [kg/s] on grains of diameter [m] at a slip speed [m/s] and a
-    /// porosity [-].
-    fn per_slip<N: Number>(&self, diameter: N, slip: N, porosity: N) -> N;
-}
-
 /// What acts on every grain without a partner.
 #[derive(Clone, Copy, Debug)]
-pub struct Surroundings<D> {
+pub struct Surroundings {
     /// g, downwards [m/s²].
     pub gravity: f64,
-    /// ρ_f [kg/m³].
+    /// ρ_f [kg/m³], zero in empty space.
     pub fluid_density: f64,
-    /// `None` in empty space.
-    pub drag: Option<D>,
+    /// μ [Pa s].
+    pub viscosity: f64,
+    /// Drag of the superficial slip; `None` leaves drag out.
+    pub drag: Option<AnyDrag>,
 }
 
 /// Moves all grains on and clears their forces.
-pub struct KickAndDrift<'a, D> {
-    pub surroundings: &'a Surroundings<D>,
+pub struct KickAndDrift<'a> {
+    pub surroundings: &'a Surroundings,
     pub grains: &'a mut Grains,
     pub forces: &'a mut [Record],
     /// Time over which the forces act [s].
@@ -47,7 +43,7 @@ pub struct KickAndDrift<'a, D> {
 
 /// Returns the greatest speed [m/s]: infinite where a grain is beyond the limit or has no number for
 /// its velocity.
-impl<D: Resistance> WideWork for KickAndDrift<'_, D> {
+impl WideWork for KickAndDrift<'_> {
     type Output = f64;
 
     #[inline(always)]
@@ -57,10 +53,10 @@ impl<D: Resistance> WideWork for KickAndDrift<'_, D> {
         let nobody = self.grains.len() as u32;
         let moving = self.grains.moving;
         for first in (0..moving).step_by(LANES) {
-            let members = std::array::from_fn(|lane| {
-                let grain = first + lane;
-                if grain < moving { grain as u32 } else { nobody }
-            });
+            let mut members = [nobody; LANES];
+            for (lane, member) in members.iter_mut().enumerate().take(moving - first) {
+                *member = (first + lane) as u32;
+            }
             let motion = W::gather(&self.grains.motion, &members);
             let spin = W::gather(&self.grains.spin, &members);
             let forces = W::gather(self.forces, &members);
@@ -82,12 +78,7 @@ impl<D: Resistance> WideWork for KickAndDrift<'_, D> {
 
 /// New motion and spin of eight grains, and their speeds squared.
 #[inline(always)]
-fn eight<D: Resistance, W: Wide>(
-    step: &KickAndDrift<D>,
-    motion: [W; 8],
-    spin: [W; 8],
-    forces: [W; 8],
-) -> ([W; 8], [W; 8], W) {
+fn eight<W: Wide>(step: &KickAndDrift, motion: [W; 8], spin: [W; 8], forces: [W; 8]) -> ([W; 8], [W; 8], W) {
     let [x, y, z, radius, vx, vy, vz, inverse_mass] = motion;
     let [wx, wy, wz, inverse_inertia, porosity, fluid, neighbours, spare] = spin;
     let surroundings = step.surroundings;
@@ -101,7 +92,11 @@ fn eight<D: Resistance, W: Wide>(
         None => velocity + push * kick,
         Some(drag) => {
             let slip = Vector::new(W::splat(0.0), W::splat(0.0), fluid) - velocity;
-            let rate = drag.per_slip(radius + radius, slip.norm(), porosity) * inverse_mass;
+            // Model B: f/ε on the interstitial slip is β of the superficial one.
+            let fluid = [surroundings.fluid_density, surroundings.viscosity];
+            let superficial = porosity * slip.norm();
+            let per_slip = drag::coefficient(drag, fluid, radius + radius, superficial, porosity);
+            let rate = per_slip * inverse_mass;
             velocity + (push + slip * rate) * (kick * mean_decay(rate * kick))
         }
     };

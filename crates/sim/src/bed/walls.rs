@@ -4,7 +4,7 @@ use crate::contact::{Couple, Meeting, Motion, Touch};
 use crate::math::{Vec3, Vector};
 use crate::neighbours::{LANES, Record, Wide, WideWork};
 
-use super::contacts::{Interaction, add, remember, remembered};
+use super::contacts::{Interaction, add, effort, remember, remembered};
 use super::grains::Grains;
 use super::pairs::{History, PairList};
 
@@ -114,10 +114,10 @@ impl WideWork for WallSweep<'_> {
             let position = Vector::new(a[0], a[1], a[2]);
             let height = normal.dot(&position) - wall[3];
             let meeting = Meeting::of_sphere_and_wall(a[3], height, normal);
-            let reach = self
-                .interaction
-                .attraction
-                .map_or(0.0, |attraction| attraction.reach());
+            let reach = match &self.interaction.attraction {
+                Some(attraction) => attraction.reach(),
+                None => 0.0,
+            };
             if !W::any(W::splat(-reach).below(meeting.overlap)) {
                 if *live {
                     *history = History::default();
@@ -127,13 +127,13 @@ impl WideWork for WallSweep<'_> {
             }
             let spin = W::gather(&self.grains.spin, first);
             // Empty lanes have no mass: any will do.
-            let whole = |inverse: W| one / W::select(zero.below(inverse), inverse, one);
-            let mass = whole(a[7]);
+            let mass = one / W::select(zero.below(a[7]), a[7], one);
+            let inertia = one / W::select(zero.below(spin[3]), spin[3], one);
             let couple = Couple {
                 reduced_mass: mass,
                 mean_mass: mass,
                 reduced_radius: a[3],
-                reduced_inertia: whole(spin[3]),
+                reduced_inertia: inertia,
                 smaller_radius: a[3],
             };
             let grain = Motion {
@@ -160,9 +160,7 @@ impl WideWork for WallSweep<'_> {
             if let Some(attraction) = &interaction.attraction {
                 force = force - normal * attraction.to_wall(&meeting, a[3]);
             }
-            let efforts = W::records([
-                force.x, force.y, force.z, zero, torque.x, torque.y, torque.z, zero,
-            ]);
+            let efforts = effort(force, torque);
             for lane in 0..LANES {
                 add(&mut self.forces[first[lane] as usize], &efforts[lane]);
             }

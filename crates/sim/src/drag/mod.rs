@@ -9,6 +9,7 @@
 //! This is the drag of model A, which leaves the pressure gradient force apart; model B
 //! divides it by ε and uses the buoyancy of the pure fluid.
 
+mod any;
 mod coulson_richardson;
 mod dallavalle;
 mod di_felice;
@@ -16,6 +17,7 @@ mod schiller_naumann;
 mod stokes;
 pub mod voidage;
 
+pub use any::{AnyDrag, AnyVoidage, SphereDrag};
 pub use coulson_richardson::CoulsonRichardson;
 pub use dallavalle::Dallavalle;
 pub use di_felice::DiFelice;

@@ -152,6 +152,7 @@ mod x86 {
 
     /// One register of AVX-512, under the same rule.
     #[derive(Clone, Copy, Debug)]
+    #[repr(transparent)]
     pub struct Avx512(__m512d);
 
     macro_rules! operator {
@@ -319,19 +320,26 @@ mod x86 {
         }
     }
 
+    // Closures are not compiled with the instructions of their caller: lists are written out.
     impl Wide for Avx2 {
         #[inline(always)]
         fn gather(records: &[Record], members: &[u32; LANES]) -> [Self; 8] {
             // A square of four fields of four particles at a time.
-            // SAFETY: half a record is 32 aligned bytes and its index is checked.
-            let square = |particle: usize, field: usize| {
-                turned_4(std::array::from_fn(|i| unsafe {
-                    let record = &records[members[particle + i] as usize].0;
-                    _mm256_load_pd(record.as_ptr().add(field))
-                }))
-            };
-            let (a, b) = (square(0, 0), square(4, 0));
-            let (c, d) = (square(0, 4), square(4, 4));
+            macro_rules! square {
+                ($particle:literal, $field:literal) => {{
+                    macro_rules! row {
+                        ($i:literal) => {
+                            _mm256_load_pd(
+                                records[members[$particle + $i] as usize].0[$field..$field + 4].as_ptr(),
+                            )
+                        };
+                    }
+                    // SAFETY: half a record is 32 aligned bytes and its index is checked.
+                    turned_4(unsafe { [row!(0), row!(1), row!(2), row!(3)] })
+                }};
+            }
+            let (a, b) = (square!(0, 0), square!(4, 0));
+            let (c, d) = (square!(0, 4), square!(4, 4));
             [
                 Avx2([a[0], b[0]]),
                 Avx2([a[1], b[1]]),
@@ -352,19 +360,31 @@ mod x86 {
 
         #[inline(always)]
         fn records(fields: [Self; 8]) -> [Record; LANES] {
-            let half = |particle: usize, field: usize| {
-                turned_4(std::array::from_fn(|i| fields[field + i].0[particle]))
-            };
-            let (a, b, c, d) = (half(0, 0), half(0, 4), half(1, 0), half(1, 4));
-            // SAFETY: both are eight doubles.
-            std::array::from_fn(|lane| unsafe {
-                let halves = if lane < 4 {
-                    [a[lane], b[lane]]
-                } else {
-                    [c[lane - 4], d[lane - 4]]
+            macro_rules! square {
+                ($half:literal, $field:literal) => {
+                    turned_4([
+                        fields[$field].0[$half],
+                        fields[$field + 1].0[$half],
+                        fields[$field + 2].0[$half],
+                        fields[$field + 3].0[$half],
+                    ])
                 };
-                Record(std::mem::transmute::<[__m256d; 2], [f64; LANES]>(halves))
-            })
+            }
+            let (a, b) = (square!(0, 0), square!(0, 4));
+            let (c, d) = (square!(1, 0), square!(1, 4));
+            // SAFETY: both are eight times eight doubles.
+            unsafe {
+                std::mem::transmute::<[[__m256d; 2]; 8], [Record; LANES]>([
+                    [a[0], b[0]],
+                    [a[1], b[1]],
+                    [a[2], b[2]],
+                    [a[3], b[3]],
+                    [c[0], d[0]],
+                    [c[1], d[1]],
+                    [c[2], d[2]],
+                    [c[3], d[3]],
+                ])
+            }
         }
 
         #[inline(always)]
@@ -441,9 +461,25 @@ mod x86 {
         /// Eight whole cache lines and an 8 × 8 transposition in registers.
         #[inline(always)]
         fn gather(records: &[Record], members: &[u32; LANES]) -> [Self; 8] {
-            // SAFETY: a record is 64 aligned bytes and its index is checked.
-            let rows = members.map(|member| unsafe { _mm512_load_pd(records[member as usize].0.as_ptr()) });
-            turned_8(rows).map(Avx512)
+            macro_rules! row {
+                ($i:literal) => {
+                    _mm512_load_pd(records[members[$i] as usize].0.as_ptr())
+                };
+            }
+            // SAFETY: a record is 64 aligned bytes and its index is checked; both are eight registers.
+            unsafe {
+                let rows = [
+                    row!(0),
+                    row!(1),
+                    row!(2),
+                    row!(3),
+                    row!(4),
+                    row!(5),
+                    row!(6),
+                    row!(7),
+                ];
+                std::mem::transmute::<[__m512d; 8], [Avx512; 8]>(turned_8(rows))
+            }
         }
 
         #[inline(always)]
@@ -454,9 +490,11 @@ mod x86 {
 
         #[inline(always)]
         fn records(fields: [Self; 8]) -> [Record; LANES] {
-            // SAFETY: both are eight doubles.
-            turned_8(fields.map(|field| field.0))
-                .map(|row| Record(unsafe { std::mem::transmute::<__m512d, [f64; LANES]>(row) }))
+            // SAFETY: all are eight times eight doubles.
+            unsafe {
+                let rows = turned_8(std::mem::transmute::<[Avx512; 8], [__m512d; 8]>(fields));
+                std::mem::transmute::<[__m512d; 8], [Record; LANES]>(rows)
+            }
         }
 
         #[inline(always)]
