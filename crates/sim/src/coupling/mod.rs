@@ -5,6 +5,7 @@ mod disturbance;
 mod exchange;
 mod grain_porosity;
 mod layers;
+pub mod permeability;
 mod weights;
 
 pub use breathing::Breathing;

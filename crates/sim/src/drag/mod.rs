@@ -12,6 +12,7 @@
 mod coulson_richardson;
 mod dallavalle;
 mod di_felice;
+pub mod lift;
 mod schiller_naumann;
 mod stokes;
 pub mod voidage;
@@ -19,6 +20,7 @@ pub mod voidage;
 pub use coulson_richardson::CoulsonRichardson;
 pub use dallavalle::Dallavalle;
 pub use di_felice::DiFelice;
+pub use lift::{LiftLaw, Magnus, Saffman, Whirl};
 pub use schiller_naumann::SchillerNaumann;
 pub use stokes::Stokes;
 pub use voidage::{Hindered, VoidageLaw};
