@@ -4,6 +4,7 @@
 //! simulated, [`scene::describe`] says which physics is active, [`scene::run`] computes it.
 
 pub mod bed;
+pub mod cohesion;
 pub mod contact;
 pub mod coupling;
 pub mod drag;
