@@ -62,6 +62,7 @@ fn reseed(study: &Study, seeds: Option<u64>) -> Result<Vec<Point>, RunError> {
         .flat_map(|point| {
             (1..=seeds).map(move |seed| Point {
                 seed,
+                work: point.work.seeded(seed),
                 ..point.clone()
             })
         })

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use kynch_sim::scene::Scene;
 use serde::{Deserialize, Serialize};
 
 /// A study file, parsed and checked.
@@ -106,8 +107,27 @@ impl std::fmt::Display for AxisValue {
 /// What a point runs.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Work {
-    Simulation(kynch_sim::scene::Scene),
+    Simulation(Scene),
     Rehearsal(Rehearsal),
+}
+
+impl Work {
+    /// The same work with another seed, where it has one.
+    pub fn seeded(&self, seed: u64) -> Work {
+        let mut work = self.clone();
+        if let Work::Simulation(Scene::Sedimentation(scene)) = &mut work {
+            scene.seed = seed;
+        }
+        work
+    }
+
+    /// Threads that it keeps busy.
+    pub fn threads(&self) -> usize {
+        match self {
+            Work::Simulation(scene) => scene.threads() as usize,
+            Work::Rehearsal(_) => 1,
+        }
+    }
 }
 
 /// A scene without physics: it returns a known series, so that plans, stores, verdicts and reports

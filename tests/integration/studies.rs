@@ -19,7 +19,7 @@ fn particles_per_side(point: &Point) -> f64 {
     let (fluid, column, grains) = match scene {
         Scene::SingleSphere(sphere) => (&sphere.fluid, sphere.column, sphere.grains),
         Scene::ConstantPorosityBlock(block) => (&block.fluid, block.column, block.grains),
-        Scene::BinaryCollision(_) => panic!("a scene with a fluid"),
+        Scene::BinaryCollision(_) | Scene::Sedimentation(_) => panic!("a scene with a fluid"),
     };
     let Fluid::Sph(fluid) = fluid else {
         panic!("a particle fluid")
@@ -144,6 +144,7 @@ fn the_schema_is_closed_and_its_references_resolve() {
             "single_sphere",
             "constant_porosity_block",
             "binary_collision",
+            "sedimentation",
             "rehearsal"
         ]
     );

@@ -55,7 +55,10 @@ impl Reader<'_, '_> {
                 .filter(|observable| kinds.contains(&observable.kind))
                 .map(|observable| observable.name),
         );
-        match offered.iter().find(|observable| observable.name == name) {
+        // A name may be a number and a series too.
+        let named = || offered.iter().filter(|observable| observable.name == name);
+        let fitting = named().find(|observable| kinds.contains(&observable.kind));
+        match fitting.or_else(|| named().next()) {
             Some(found) if kinds.contains(&found.kind) => {
                 if found.unit == "1" {
                     return Some(Dimension::NONE);
@@ -100,25 +103,27 @@ impl Reader<'_, '_> {
     pub(super) fn reference(&mut self, name: &str, of: Option<&String>) {
         let works = self.context.works.values();
         let offered: Vec<Observable> = works.flat_map(observables).collect();
-        let kind = of
-            .and_then(|of| offered.iter().find(|observable| observable.name == of))
-            .map(|found| found.kind);
+        let kinds: Vec<ObservableKind> = offered
+            .iter()
+            .filter(|observable| of.is_some_and(|of| observable.name == of))
+            .map(|observable| observable.kind)
+            .collect();
         let fitting: Vec<&str> = REFERENCES
             .iter()
-            .filter(|(_, is)| kind.is_none_or(|kind| kind == *is))
+            .filter(|(_, is)| kinds.is_empty() || kinds.contains(is))
             .map(|(name, _)| *name)
             .collect();
-        match (REFERENCES.iter().find(|(known, _)| *known == name), kind) {
+        match (REFERENCES.iter().find(|(known, _)| *known == name), kinds.first()) {
             (None, _) => self.fault(
                 "against",
                 format!("there is no reference `{name}`"),
                 advice(name, &fitting),
             ),
-            (Some((_, is)), Some(kind)) if *is != kind && kind != ObservableKind::Profile => {
+            (Some((_, is)), Some(kind)) if !kinds.contains(is) && *kind != ObservableKind::Profile => {
                 let message = format!(
                     "the reference `{name}` is {}, the observable is {}",
                     kind_name(*is),
-                    kind_name(kind)
+                    kind_name(*kind)
                 );
                 self.fault("against", message, format!("known: {}", fitting.join(", ")));
             }
