@@ -155,5 +155,6 @@ fn bed(size: Vec3, spheres: &[(Vec3, f64)], walls: bool, rolling: bool) -> Bed {
         interaction,
         surroundings,
         Listing::Skin(None),
+        None,
     )
 }

@@ -8,12 +8,14 @@ mod contacts;
 mod grains;
 mod motion;
 mod pairs;
+mod slices;
 mod walls;
 
-pub use attraction::Attraction;
+pub use attraction::{Attraction, Charge};
 pub use contacts::{Interaction, Laws};
 pub use grains::{Grain, Grains};
 pub use motion::Surroundings;
+pub use slices::Porosity;
 pub use walls::Wall;
 
 use crate::math::Vec3;
@@ -68,6 +70,8 @@ pub struct Bed {
     pub interaction: Interaction,
     pub surroundings: Surroundings,
     pub listing: Listing,
+    /// `None` where every grain sees clear fluid at rest.
+    pub porosity: Option<Porosity>,
     pub work: Work,
     /// Greatest overlap over the smaller diameter since it was last set to zero.
     pub deepest: f64,
@@ -87,6 +91,7 @@ impl Bed {
         interaction: Interaction,
         surroundings: Surroundings,
         listing: Listing,
+        porosity: Option<Porosity>,
     ) -> Self {
         let smallest = grains
             .spheres()
@@ -99,6 +104,7 @@ impl Bed {
             interaction,
             surroundings,
             listing,
+            porosity,
             work: Work::default(),
             deepest: 0.0,
             walls: Walls::new(walls),
@@ -124,6 +130,8 @@ impl Bed {
             self.slack -= fastest * dt;
             if self.slack < 0.0 {
                 self.renew_lists(fastest);
+            } else if let Some(porosity) = &mut self.porosity {
+                porosity.follow(&mut self.grains, &self.surroundings, fastest * dt, dt);
             }
             self.sum_forces(dt);
         }
@@ -197,6 +205,10 @@ impl Bed {
         );
         self.walls.renew(grains, reach, &wall_memories);
         self.work.lists += 1;
+        // The slices know the grains by their order.
+        if let Some(porosity) = &mut self.porosity {
+            porosity.refresh(&mut self.grains, &self.surroundings);
+        }
     }
 
     /// Sums the forces on all grains; histories move on by `elapsed` [s].

@@ -46,12 +46,16 @@ impl VanDerWaals {
         law
     }
 
-    /// The gap held within its bounds, and `force` where it is not beyond the cut-off.
+    /// The gap held at the smallest one.
     #[inline(always)]
-    fn within<N: Number>(&self, gap: N, force: impl Fn(N) -> N) -> N {
-        let beyond = N::splat(self.cut_off_gap).below(gap);
-        let held = N::splat(self.smallest_gap).max(gap);
-        N::select(beyond, N::splat(0.0), force(held))
+    fn held<N: Number>(&self, gap: N) -> N {
+        N::splat(self.smallest_gap).max(gap)
+    }
+
+    /// A force where the gap is not beyond the cut-off.
+    #[inline(always)]
+    fn within<N: Number>(&self, gap: N, force: N) -> N {
+        N::select(N::splat(self.cut_off_gap).below(gap), N::splat(0.0), force)
     }
 }
 
@@ -65,21 +69,21 @@ impl Attraction for VanDerWaals {
     fn force<N: Number>(&self, gap: N, radius_i: N, radius_j: N) -> N {
         let product = radius_i * radius_j;
         let sum = radius_i + radius_j;
-        self.within(gap, |h| {
-            let near = h * (h + sum + sum);
-            let far = near + N::splat(4.0) * product;
-            // The square of 8 R_i R_j over both brackets: no power of a length beyond the fourth.
-            let ratio = N::splat(8.0) * product / (near * far);
-            N::splat(self.hamaker / 6.0) * (product * (h + sum)) * (ratio * ratio)
-        })
+        let h = self.held(gap);
+        let near = h * (h + sum + sum);
+        let far = near + N::splat(4.0) * product;
+        // The square of 8 R_i R_j over both brackets: no power of a length beyond the fourth.
+        let ratio = N::splat(8.0) * product / (near * far);
+        let force = N::splat(self.hamaker / 6.0) * (product * (h + sum)) * (ratio * ratio);
+        self.within(gap, force)
     }
 
     #[inline(always)]
     fn wall_force<N: Number>(&self, gap: N, radius: N) -> N {
-        self.within(gap, |h| {
-            let ratio = radius / (h * (h + radius + radius));
-            N::splat(self.hamaker * 2.0 / 3.0) * radius * (ratio * ratio)
-        })
+        let h = self.held(gap);
+        let ratio = radius / (h * (h + radius + radius));
+        let force = N::splat(self.hamaker * 2.0 / 3.0) * radius * (ratio * ratio);
+        self.within(gap, force)
     }
 }
 

@@ -12,7 +12,7 @@ pub use model::{BinaryCollision, IntegratorChoice, Material, Normal, Partner, Ro
 
 pub(super) use check::{check, check_laws};
 pub(super) use describe::{describe, describe_laws, integrator};
-pub(super) use laws::AnyNormal;
+
 pub(super) use observables::observables;
 pub(super) use run::run;
 

@@ -1,9 +1,8 @@
 //! Contact times of a scene and the time step they allow.
 
 use super::model::{Sedimentation, StillFluid};
-use crate::contact::{Body, Contact, NormalLaw, TangentialLaw};
+use crate::contact::{AnyNormal, Body, Contact, NormalLaw, TangentialLaw};
 use crate::math::bisect;
-use crate::scene::collision::AnyNormal;
 use crate::scene::{IntegratorChoice, Normal};
 
 /// Fewest steps that resolve a contact.
@@ -114,7 +113,7 @@ struct Pair<'a> {
 impl<'a> Pair<'a> {
     fn of(scene: &'a Sedimentation, one: &Body, other: &Body, fastest: f64) -> Self {
         let reduced = |a: f64, b: f64| 1.0 / (1.0 / a + 1.0 / b);
-        let normal = AnyNormal::of(&scene.normal);
+        let normal = scene.normal.law();
         let mut pair = Pair {
             scene,
             normal,
