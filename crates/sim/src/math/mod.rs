@@ -1,8 +1,10 @@
 //! Vectors and the few numbers every room needs.
 
 mod number;
+mod random;
 
 pub use number::Number;
+pub use random::Random;
 
 /// A vector in SI units.
 pub type Vec3 = nalgebra::Vector3<f64>;
