@@ -5,6 +5,7 @@
 
 pub mod bed;
 pub mod cohesion;
+pub mod arrangement;
 pub mod contact;
 pub mod coupling;
 pub mod drag;

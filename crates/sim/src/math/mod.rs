@@ -7,6 +7,10 @@ mod vector;
 pub use number::Number;
 pub(crate) use number::bits;
 pub use vector::Vector;
+mod random;
+
+pub use number::Number;
+pub use random::Random;
 
 /// A vector in SI units.
 pub type Vec3 = nalgebra::Vector3<f64>;
