@@ -2,15 +2,13 @@
 
 pub mod elementary;
 mod number;
+mod random;
 mod vector;
 
 pub use number::Number;
 pub(crate) use number::bits;
-pub use vector::Vector;
-mod random;
-
-pub use number::Number;
 pub use random::Random;
+pub use vector::Vector;
 
 /// A vector in SI units.
 pub type Vec3 = nalgebra::Vector3<f64>;
