@@ -9,6 +9,7 @@ mod grains;
 mod motion;
 mod pairs;
 mod slices;
+mod touching;
 mod walls;
 
 pub use attraction::{Attraction, Charge};
@@ -16,6 +17,7 @@ pub use contacts::{Interaction, Laws};
 pub use grains::{Grain, Grains};
 pub use motion::Surroundings;
 pub use slices::Porosity;
+pub use touching::Touching;
 pub use walls::Wall;
 
 use crate::math::Vec3;

@@ -42,10 +42,6 @@ impl Walls {
         }
     }
 
-    pub fn all(&self) -> &[Wall] {
-        &self.walls
-    }
-
     /// Height of a grain's lowest point over a wall [m].
     pub fn gap(&self, grains: &Grains, grain: usize, wall: usize) -> f64 {
         let [x, y, z, distance, ..] = self.records[wall].0;

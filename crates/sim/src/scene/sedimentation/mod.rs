@@ -4,9 +4,11 @@ mod check;
 mod describe;
 mod model;
 mod observables;
+mod observe;
 mod population;
 mod run;
 mod settling;
+mod start;
 mod step;
 
 pub use model::{
