@@ -97,6 +97,9 @@ impl DragScale {
 #[cfg(test)]
 mod tests {
     use super::*;
+    #[cfg(target_arch = "x86_64")]
+    use crate::neighbours::{Avx2, Avx512};
+    use crate::neighbours::{Plain, Wide};
 
     const WATER: DragScale = DragScale {
         diameter: 1e-4,
@@ -119,5 +122,42 @@ mod tests {
         let weight = PI / 6.0 * 1e-12 * 1500.0 * 9.81;
         let speed = WATER.balance(&DiFelice, 0.9 * weight, 0.9);
         assert!((speed - 4.91237e-3).abs() < 2e-8, "{speed}");
+    }
+
+    fn on_lanes<W: Wide>(law: &impl DragLaw) {
+        for group in 0..64 {
+            let re: [f64; 8] =
+                std::array::from_fn(|lane| (0.05 * f64::from(group * 8 + lane as i32)).powi(3));
+            let porosity: [f64; 8] = std::array::from_fn(|lane| 1.0 - 0.08 * lane as f64);
+            let wide = law.factor(W::from_lanes(re), W::from_lanes(porosity)).lanes();
+            let single: [f64; 8] = std::array::from_fn(|lane| law.factor(re[lane], porosity[lane]));
+            assert_eq!(wide, single);
+        }
+    }
+
+    fn on_all_registers(law: impl DragLaw) {
+        on_lanes::<Plain>(&law);
+        #[cfg(target_arch = "x86_64")]
+        {
+            if is_x86_feature_detected!("avx2") {
+                on_lanes::<Avx2>(&law);
+            }
+            if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
+                on_lanes::<Avx512>(&law);
+            }
+        }
+    }
+
+    #[test]
+    fn eight_grains_side_by_side_drag_as_each_alone() {
+        on_all_registers(Stokes);
+        on_all_registers(Dallavalle);
+        on_all_registers(SchillerNaumann);
+        on_all_registers(CoulsonRichardson);
+        on_all_registers(DiFelice);
+        on_all_registers(Hindered {
+            sphere: SchillerNaumann,
+            voidage: voidage::AlvimLiteral,
+        });
     }
 }
