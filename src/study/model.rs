@@ -110,6 +110,10 @@ impl std::fmt::Display for AxisValue {
 
 /// What a point runs.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "rehearsals are few: a box would save nothing"
+)]
 pub enum Work {
     Simulation(Scene),
     Rehearsal(Rehearsal),

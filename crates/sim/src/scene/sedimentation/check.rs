@@ -165,10 +165,10 @@ fn room(scene: &Sedimentation, list: &mut List) -> bool {
         Sides::Walls => 1.0,
         Sides::Periodic => FEWEST_ACROSS,
     };
-    let mut sound = sides
+    let narrow = sides
         .iter()
-        .map(|(name, side)| wide_enough(scene, name, *side, across, list))
-        .fold(true, |all, holds| all && holds);
+        .filter(|(name, side)| !wide_enough(scene, name, *side, across, list));
+    let mut sound = narrow.count() == 0;
     sound &= wide_enough(scene, "height", container.height, 1.0, list);
     sound && dilute_enough(scene, list) && arranged(scene, list)
 }
