@@ -161,11 +161,7 @@ fn nothing_selected(study: &Study, planned: &[Planned], options: &Options) -> St
 }
 
 pub(super) fn words(value: &AxisValue) -> String {
-    match value {
-        AxisValue::Number(number) => number.to_string(),
-        AxisValue::Flag(flag) => flag.to_string(),
-        AxisValue::Word(word) => word.clone(),
-    }
+    value.to_string()
 }
 
 /// What the store knows of earlier runs.

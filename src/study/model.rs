@@ -97,6 +97,10 @@ fn leaf(tree: &serde_json::Value, name: &str) -> Option<AxisValue> {
 impl std::fmt::Display for AxisValue {
     fn fmt(&self, out: &mut std::fmt::Formatter) -> std::fmt::Result {
         match self {
+            // Past a few zeros nobody counts them.
+            AxisValue::Number(number) if *number != 0.0 && !(1e-5..1e15).contains(&number.abs()) => {
+                write!(out, "{number:e}")
+            }
             AxisValue::Number(number) => write!(out, "{number}"),
             AxisValue::Flag(flag) => write!(out, "{flag}"),
             AxisValue::Word(word) => write!(out, "{word}"),
@@ -106,6 +110,10 @@ impl std::fmt::Display for AxisValue {
 
 /// What a point runs.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "rehearsals are few: a box would save nothing"
+)]
 pub enum Work {
     Simulation(Scene),
     Rehearsal(Rehearsal),

@@ -47,7 +47,7 @@ impl List {
             let name = path.rsplit('.').next().unwrap_or(path);
             self.add(
                 path,
-                format!("`{name}` is {value}, it must be above 0"),
+                format!("`{name}` is {}, it must be above 0", shown(value)),
                 "write a positive number",
             );
         }
@@ -69,7 +69,7 @@ impl List {
         let holds = value >= 0.0 && value.is_finite();
         if !holds {
             let name = path.rsplit('.').next().unwrap_or(path);
-            let message = format!("`{name}` is {value}, it must be 0 or above");
+            let message = format!("`{name}` is {}, it must be 0 or above", shown(value));
             self.add(path, message, "write a number that is not negative");
         }
         holds
@@ -294,6 +294,15 @@ fn lattice(scene: &ConstantPorosityBlock, list: &mut List) {
             message,
             "make it thinner or the column higher: the block begins at half the height",
         );
+    }
+}
+
+/// A number, small ones with an exponent.
+fn shown(value: f64) -> String {
+    if value != 0.0 && value.abs() < 1e-5 {
+        format!("{value:e}")
+    } else {
+        value.to_string()
     }
 }
 

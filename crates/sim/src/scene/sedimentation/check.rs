@@ -165,10 +165,10 @@ fn room(scene: &Sedimentation, list: &mut List) -> bool {
         Sides::Walls => 1.0,
         Sides::Periodic => FEWEST_ACROSS,
     };
-    let mut sound = sides
+    let narrow = sides
         .iter()
-        .map(|(name, side)| wide_enough(scene, name, *side, across, list))
-        .fold(true, |all, holds| all && holds);
+        .filter(|(name, side)| !wide_enough(scene, name, *side, across, list));
+    let mut sound = narrow.count() == 0;
     sound &= wide_enough(scene, "height", container.height, 1.0, list);
     sound && dilute_enough(scene, list) && arranged(scene, list)
 }
@@ -213,11 +213,16 @@ fn dilute_enough(scene: &Sedimentation, list: &mut List) -> bool {
     let message = format!("the grains fill {share:.3} of the {measure} of the box, {most} is the most");
     let help = format!(
         "make the box at least {} high, or take at most {:.0} grains",
-        millimetres(scene.container.height * share / most),
+        millimetres(rounded_up(scene.container.height * share / most)),
         (scene.grains() as f64 * most / share).floor()
     );
     list.add(path, message, &help);
     false
+}
+
+/// A length [m] in whole micrometres.
+fn rounded_up(length: f64) -> f64 {
+    (1e6 * length).ceil() * 1e-6
 }
 
 fn arranged(scene: &Sedimentation, list: &mut List) -> bool {
@@ -256,11 +261,7 @@ fn packed(scene: &Sedimentation, solids_fraction: f64, list: &mut List) -> bool 
     let (measure, most) = filled(scene.dimensions);
     if !(solids_fraction > 0.0 && solids_fraction <= most) {
         let message = format!("`solids_fraction` is {solids_fraction}, it must lie between 0 and {most}");
-        list.add(
-            path,
-            message,
-            "denser packings of equal grains cannot be made at random",
-        );
+        list.add(path, message, "random packings of equal grains are no denser");
         return false;
     }
     let share = scene.filled();

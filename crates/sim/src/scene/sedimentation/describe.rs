@@ -268,8 +268,9 @@ fn warnings(
     warn(
         scene.duration < fall && fall.is_finite(),
         format!(
-            "the run lasts {:.2e} s, a grain falls from the top in about {fall:.2e} s",
-            scene.duration
+            "the run lasts {}, a grain falls from the top in about {}",
+            seconds(scene.duration),
+            seconds(fall)
         ),
     );
     warn(
@@ -308,4 +309,13 @@ fn warnings(
         scene.threads > 1 && scene.grains() < 20_000,
         "several threads seldom pay below 20000 grains".to_owned(),
     );
+}
+
+/// A time with three digits.
+fn seconds(time: f64) -> String {
+    if (0.01..1e4).contains(&time) {
+        format!("{time:.3} s")
+    } else {
+        format!("{time:.2e} s")
+    }
 }
