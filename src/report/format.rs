@@ -98,6 +98,32 @@ pub fn quantity(value: f64, unit: &str) -> String {
         .to_owned()
 }
 
+/// A mean over seeds with the half width of its confidence interval: `4.870 ± 0.012 mm/s`.
+pub fn measured(value: f64, half_width: Option<f64>, unit: &str) -> String {
+    let Some(half_width) = half_width.filter(|width| width.is_finite()) else {
+        return quantity(value, unit);
+    };
+    let unit = readable(unit, value);
+    format!(
+        "{} {}",
+        plus_minus(value * unit.factor, half_width * unit.factor),
+        unit.label
+    )
+    .trim_end()
+    .to_owned()
+}
+
+/// `4.870 ± 0.012`
+pub fn plus_minus(value: f64, half_width: f64) -> String {
+    format!("{} ± {}", four_digits(value), two_digits(half_width))
+}
+
+/// Two significant digits: uncertainties.
+fn two_digits(value: f64) -> String {
+    let rounded: f64 = format!("{value:.1e}").parse().unwrap_or(value);
+    number(rounded)
+}
+
 /// A quantity as the title of an axis.
 pub fn title_words(name: &str) -> String {
     match name {

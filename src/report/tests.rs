@@ -242,6 +242,7 @@ fn verdicts() -> Vec<Verdict> {
         label: label.into(),
         expected: Some(0.00491),
         computed: Some(0.00491 * (1.0 + error)),
+        half_width: None,
         error: Some(error),
         holds: Some(error < 0.02),
     };
@@ -252,6 +253,7 @@ fn verdicts() -> Vec<Verdict> {
         unit: "m/s".into(),
         expected: Some(0.00491),
         computed: Some(0.0051),
+        half_width: None,
         error: Some(0.0387),
         band: "< 0.02".into(),
         verdict: outcome,

@@ -192,7 +192,35 @@ pub enum Check {
         within: f64,
     },
     /// A scalar rises (or falls) along an axis, everything else fixed.
-    Monotone { of: String, over: String, rising: bool },
+    Monotone {
+        of: String,
+        over: String,
+        rising: bool,
+        /// A step against the trend below twice its standard error over seeds counts as flat.
+        within_noise: bool,
+    },
+    /// A scalar of one selection of points beside that of another, everything else equal.
+    Compare(Comparison),
+}
+
+/// How a scalar of a first selection lies to that of a second.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    pub of: String,
+    pub between: [Selection; 2],
+    pub is: Relation,
+    /// Relative to the value of the second: the least difference of `greater` and `less`, the largest of
+    /// `equal`.
+    pub margin: f64,
+    /// Twice the standard error of the difference over seeds is allowed on top of `margin`.
+    pub within_noise: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relation {
+    Greater,
+    Less,
+    Equal,
 }
 
 /// A figure to draw.

@@ -18,6 +18,8 @@ pub enum ExpectationSpec {
     Order(OrderSpec),
     /// A scalar rises or falls along an axis.
     Monotone(MonotoneSpec),
+    /// A scalar of some points is greater than, less than or equal to that of others.
+    Compare(CompareSpec),
 }
 
 /// What every expectation may carry.
@@ -82,8 +84,38 @@ pub struct MonotoneSpec {
     pub over: String,
     /// True for rising, false for falling.
     pub rising: bool,
+    /// Lets a step against the trend pass that is smaller than twice its standard error over seeds.
+    #[serde(default)]
+    pub within_noise: bool,
     #[serde(flatten)]
     pub common: Common,
+}
+
+/// How the scalar of the first selection lies to that of the second, everything else equal.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct CompareSpec {
+    pub of: String,
+    /// Two selections, each written like `where`.
+    #[expect(dead_code, reason = "read from the tree, where values have positions")]
+    pub between: Vec<Where>,
+    pub is: RelationSpec,
+    /// Least difference of `greater` and `less`, as a share of the second value.
+    pub by: Option<Fraction>,
+    /// Largest difference of `equal`, as a share of the second value.
+    pub within: Option<Fraction>,
+    /// Lets `equal` differ by twice the standard error of the difference over seeds.
+    #[serde(default)]
+    pub within_noise: bool,
+    #[serde(flatten)]
+    pub common: Common,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum RelationSpec {
+    Greater,
+    Less,
+    Equal,
 }
 
 /// A figure: its kind with its fields.

@@ -1,6 +1,7 @@
 //! Expectations, figures and observables: their names resolved, their selections checked.
 
 mod band;
+mod comparison;
 mod named;
 mod selection;
 
@@ -12,7 +13,7 @@ use serde_json::Value as Schema;
 pub use selection::admitted;
 
 use super::axes::WrittenAxis;
-use super::model::{Check, Expectation, Figure, FigureKind, Plan, Work};
+use super::model::{Check, Comparison, Expectation, Figure, FigureKind, Plan, Work};
 use super::names::observables;
 use super::nearest::advice;
 use super::problem::Problems;
@@ -178,7 +179,8 @@ pub fn observe(
         Check::Value { of, .. }
         | Check::Error { of, .. }
         | Check::Order { of, .. }
-        | Check::Monotone { of, .. } => of,
+        | Check::Monotone { of, .. }
+        | Check::Compare(Comparison { of, .. }) => of,
     });
     let of_figures = figures.iter().flat_map(|figure| match &figure.kind {
         FigureKind::TimeSeries { of, .. } => of.iter().collect::<Vec<_>>(),
@@ -272,8 +274,14 @@ impl Reader<'_, '_> {
                         of: spec.of,
                         over: spec.over,
                         rising: spec.rising,
+                        within_noise: spec.within_noise,
                     },
                 )
+            }
+            ExpectationSpec::Compare(spec) => {
+                self.observable("of", &spec.of, &[Scalar]);
+                let comparison = self.comparison(&spec);
+                (spec.common, Check::Compare(comparison))
             }
         };
         (
