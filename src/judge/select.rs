@@ -42,10 +42,12 @@ pub struct Chain<'a> {
 
 /// The completed runs a selection admits, seeds gathered, in a stable order whatever order they came in.
 pub fn selected<'a>(study: &Study, runs: &'a [Run], selection: &Selection) -> Vec<Replicates<'a>> {
-    let mut chosen: Vec<&Run> = runs
-        .iter()
-        .filter(|run| run.status == Status::Completed && admits(selection, run))
-        .collect();
+    let meant = |run: &&Run| run.status == Status::Completed && admits(selection, run);
+    gathered(study, runs.iter().filter(meant).collect())
+}
+
+/// Runs with their seeds gathered, in a stable order whatever order they came in.
+pub fn gathered<'a>(study: &Study, mut chosen: Vec<&'a Run>) -> Vec<Replicates<'a>> {
     chosen.sort_by(|a, b| order(study, a, b));
     chosen.dedup_by(|a, b| a.id == b.id);
     let mut groups: Vec<Replicates> = Vec::new();

@@ -98,6 +98,7 @@ fn planned(run: &Run) -> Point {
             scale: 1.0,
             order: 2.0,
             error: 0.0,
+            grains: 0,
             delay: 0.0,
             ending: RehearsalEnding::Completes,
         }),

@@ -114,7 +114,8 @@ pub enum Work {
 /// can be tried in milliseconds, failures included.
 ///
 /// `value(t) = limit · (1 + error · scale^order) · (1 − exp(−t / time_constant))`, sampled at
-/// `samples` instants up to `duration`; scalar `limit` is its limit, scalar `scale` its scale.
+/// `samples` instants up to `duration`; scalar `limit` is its limit, scalar `scale` its scale. With
+/// `grains` it also keeps snapshots of grains that fall onto the floor of a box.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rehearsal {
     pub limit: f64,
@@ -124,6 +125,8 @@ pub struct Rehearsal {
     pub scale: f64,
     pub order: f64,
     pub error: f64,
+    /// Grains in the table `snapshots`; none, no table.
+    pub grains: u32,
     /// Real time to spend [s].
     pub delay: f64,
     /// How it ends.
@@ -258,4 +261,36 @@ pub enum FigureKind {
     },
     /// A profile table, one line per run: first column upwards, `of` along.
     Profile { of: String, group: Option<String> },
+    /// A scalar over an axis: mean over seeds with error bars, references beside.
+    Response {
+        of: String,
+        over: String,
+        group: Option<String>,
+        against: Vec<Beside>,
+    },
+    /// Pictures of the grains of one point at the kept times nearest to these [s].
+    Snapshots { times: Vec<f64> },
+}
+
+/// What a response is drawn beside.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Beside {
+    /// A reference by name, at each point's own settings.
+    Reference(String),
+    Data(DataSeries),
+}
+
+/// Two columns of a published table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DataSeries {
+    /// File name in the folder `references`.
+    pub file: String,
+    pub x: String,
+    pub y: String,
+    /// What turns the columns into SI units.
+    pub factors: (f64, f64),
+    /// Rows to take: columns with the text they hold; all rows when empty.
+    pub rows: Vec<(String, String)>,
+    /// Its name in the legend.
+    pub label: Option<String>,
 }

@@ -1,10 +1,12 @@
 //! Expectations and figures as a study file writes them.
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::Where;
-use super::quantity::{AnyQuantity, Fraction, OneOrMore};
+use super::quantity::{AnyQuantity, Fraction, OneOrMore, Scalar, Time};
 
 /// A statement that is expected to hold: its kind with its fields.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -130,6 +132,10 @@ pub enum FigureSpec {
     RunTimeAgainstError(RunTimeAgainstErrorSpec),
     /// A profile, one line per run.
     Profile(ProfileSpec),
+    /// A scalar over an axis, mean over seeds, references beside.
+    Response(ResponseSpec),
+    /// Pictures of the grains of one point, coloured by speed.
+    Snapshots(SnapshotsSpec),
 }
 
 /// What every figure may carry.
@@ -180,6 +186,59 @@ pub struct RunTimeAgainstErrorSpec {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 pub struct ProfileSpec {
     pub of: String,
+    #[serde(flatten)]
+    pub caption: Caption,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct ResponseSpec {
+    pub of: String,
+    /// Axis along which it is drawn.
+    pub over: String,
+    /// References and published data to draw beside.
+    #[serde(default)]
+    pub against: Vec<BesideSpec>,
+    #[serde(flatten)]
+    pub caption: Caption,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum BesideSpec {
+    /// A reference by name, at each point's own settings.
+    Reference(ReferenceSpec),
+    /// Two columns of a table in the folder `references`.
+    Data(DataSpec),
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct ReferenceSpec {
+    pub name: String,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct DataSpec {
+    /// Name of a file in the folder `references`.
+    pub file: String,
+    /// Column of the axis.
+    pub x: String,
+    /// Column of the scalar.
+    pub y: String,
+    /// Unit of the column, where it is not in SI units.
+    pub x_unit: Option<String>,
+    /// Unit of the column, where it is not in SI units.
+    pub y_unit: Option<String>,
+    /// Rows to take: columns with the text they hold.
+    #[serde(default)]
+    pub rows: BTreeMap<String, Scalar>,
+    /// Its name in the legend.
+    pub label: Option<String>,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct SnapshotsSpec {
+    /// One panel each: the kept instant nearest to it.
+    pub times: OneOrMore<Time>,
     #[serde(flatten)]
     pub caption: Caption,
 }

@@ -70,7 +70,7 @@ impl Reader<'_, '_> {
     }
 
     /// Reads without reporting.
-    fn quietly<T>(&mut self, read: impl FnOnce(&mut Reader) -> T) -> T {
+    pub(super) fn quietly<T>(&mut self, read: impl FnOnce(&mut Reader) -> T) -> T {
         let mut problems = Default::default();
         read(&mut Reader {
             written: self.written,

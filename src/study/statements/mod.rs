@@ -1,6 +1,7 @@
 //! Expectations, figures and observables: their names resolved, their selections checked.
 
 mod band;
+mod beside;
 mod comparison;
 mod named;
 mod selection;
@@ -20,6 +21,11 @@ use super::problem::Problems;
 use super::shape::{Place, Shapes};
 use super::spec::statement::{Caption, Common, ExpectationSpec, FigureSpec};
 use super::yaml::{Key, Node, Value};
+
+/// The table in which scenes keep their grains.
+const SNAPSHOTS: &str = "snapshots";
+/// Panels that one figure has room for.
+const MOST_PANELS: usize = 8;
 
 /// What statements may refer to.
 pub struct Context<'a> {
@@ -183,14 +189,16 @@ pub fn observe(
         | Check::Compare(Comparison { of, .. }) => of,
     });
     let of_figures = figures.iter().flat_map(|figure| match &figure.kind {
-        FigureKind::TimeSeries { of, .. } => of.iter().collect::<Vec<_>>(),
+        FigureKind::TimeSeries { of, .. } => of.clone(),
         FigureKind::ErrorAgainstResolution { of, .. }
         | FigureKind::RunTimeAgainstError { of, .. }
-        | FigureKind::Profile { of, .. } => vec![of],
+        | FigureKind::Response { of, .. }
+        | FigureKind::Profile { of, .. } => vec![of.clone()],
+        FigureKind::Snapshots { .. } => vec![SNAPSHOTS.to_owned()],
     });
-    for name in of_checks.chain(of_figures) {
-        if !observe.contains(name) {
-            observe.push(name.clone());
+    for name in of_checks.cloned().chain(of_figures) {
+        if !observe.contains(&name) {
+            observe.push(name);
         }
     }
     observe
@@ -346,6 +354,33 @@ impl Reader<'_, '_> {
                 self.observable("of", &spec.of, &[Profile]);
                 let group = spec.caption.group.clone();
                 (spec.caption, FigureKind::Profile { of: spec.of, group })
+            }
+            FigureSpec::Response(spec) => {
+                let unit = self.observable("of", &spec.of, &[Scalar]);
+                self.numeric_axis(&spec.over);
+                let against = self.beside(&spec, unit);
+                let group = spec.caption.group.clone();
+                let (of, over) = (spec.of, spec.over);
+                (
+                    spec.caption,
+                    FigureKind::Response {
+                        of,
+                        over,
+                        group,
+                        against,
+                    },
+                )
+            }
+            FigureSpec::Snapshots(spec) => {
+                self.observable("snapshots", SNAPSHOTS, &[Profile]);
+                self.one_point();
+                let times: Vec<f64> = spec.times.0.iter().map(|time| time.0).collect();
+                self.instants(&times);
+                if spec.caption.group.is_some() {
+                    let message = "`group` does not go with pictures of one point";
+                    self.fault("group", message, "leave it out");
+                }
+                return (spec.caption, FigureKind::Snapshots { times });
             }
         };
         if let Some(group) = &caption.group {
