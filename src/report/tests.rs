@@ -593,7 +593,7 @@ fn every_figure_becomes_a_picture() {
 }
 
 /// Where pictures are kept for looking at them.
-fn pictures() -> Option<std::path::PathBuf> {
+pub(super) fn pictures() -> Option<std::path::PathBuf> {
     std::env::var_os("KYNCH_PICTURES").map(std::path::PathBuf::from)
 }
 
@@ -639,7 +639,7 @@ fn pixels(svg: &str, ground: tiny_skia::Color) -> tiny_skia::Pixmap {
     options.fontdb_mut().set_sans_serif_family("DejaVu Sans");
     let tree = usvg::Tree::from_str(svg, &options).unwrap();
     let size = tree.size().to_int_size();
-    let scale = 2.5;
+    let scale = if pictures().is_some() { 2.5 } else { 0.8 };
     let (width, height) = (
         (size.width() as f32 * scale) as u32,
         (size.height() as f32 * scale) as u32,

@@ -46,11 +46,15 @@ pub fn draw(material: &Material, question: &Question, group: Option<&str>) -> Re
     let mut panel = panel(question, &curves, &others, (&x_unit, &y_unit));
     panel.heading = heading;
     let factors = (x_unit.factor, y_unit.factor);
-    for other in &others {
+    let (lines, data): (Vec<&Other>, Vec<&Other>) = others.iter().partition(|other| other.line);
+    for other in lines {
         draw_other(&mut panel, other, factors);
     }
     for curve in &curves {
         draw_curve(&mut panel, curve, factors);
+    }
+    for other in data {
+        draw_other(&mut panel, other, factors);
     }
     let legend = legend(question, &curves, &others);
     let suggested = format!(

@@ -100,14 +100,17 @@ impl Layout {
             }
         });
         let size = |length: f64| ((length * best.1).round() as i32).max(LEAST_PANEL);
+        let panel = (size(bounds.width()), size(bounds.height()));
+        let taken = best.0 as i32 * (panel.0 + between()) - between();
         Layout {
             bounds: *bounds,
             unit,
             columns: best.0,
             count,
             scale: best.1,
-            left,
-            panel: (size(bounds.width()), size(bounds.height())),
+            // Narrow panels stand in the middle of the page.
+            left: left + (room - taken).max(0) / 2,
+            panel,
         }
     }
 
@@ -151,7 +154,8 @@ impl Layout {
         };
         let height = |share: f64| area.bottom - (share * f64::from(area.bottom - area.top)).round() as i32;
         for step in 0..STEPS {
-            let [low, high] = [step, step + 1].map(|step| height(f64::from(step) / f64::from(STEPS)));
+            // Each reaches up behind those above it, so that no seam shows.
+            let (low, high) = (height(f64::from(step) / f64::from(STEPS)), area.top);
             let share = f64::from(step) / f64::from(STEPS - 1);
             let corners = vec![
                 (area.left, low),
@@ -253,6 +257,7 @@ impl Frame {
         } = self.area;
         let stroke = Stroke::solid(theme::INK, theme::AXIS_STROKE);
         let mut occupied = i32::MAX;
+        let mut occupied_from = left - theme::TICK;
         for tick in ticks(self.bounds.low, self.bounds.high, &self.unit) {
             let y = self.at(0.0, tick.at / self.unit.factor).1;
             canvas.line((left - theme::TICK, y), (left, y), stroke);
@@ -262,11 +267,15 @@ impl Frame {
             let text = Text::new(label, at, theme::SMALL_TEXT, Anchor::End);
             if text.area().bottom < occupied {
                 occupied = text.area().top;
+                occupied_from = occupied_from.min(text.area().left);
                 canvas.text(text);
             }
         }
         if self.titles.0 {
-            let at = (theme::BORDER + theme::TEXT * 6 / 10, (top + bottom) / 2);
+            let at = (
+                occupied_from - theme::GAP - theme::TEXT * 6 / 10,
+                (top + bottom) / 2,
+            );
             let title = format!("z{}", self.unit.in_brackets());
             let mut title = Text::new(title, at, theme::TEXT, Anchor::Middle);
             title.turned = true;
