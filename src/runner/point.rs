@@ -252,6 +252,7 @@ mod tests {
             scale: 1.0,
             order: 1.0,
             error: 0.0,
+            grains: 0,
             delay: 20.0,
             ending: RehearsalEnding::Completes,
         });

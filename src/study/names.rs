@@ -8,7 +8,10 @@ use super::model::Work;
 pub fn observables(work: &Work) -> Vec<Observable> {
     match work {
         Work::Simulation(scene) => kynch_sim::scene::observables(scene),
-        Work::Rehearsal(_) => REHEARSAL.iter().map(observable).collect(),
+        Work::Rehearsal(scene) => {
+            let snapshots = (scene.grains > 0).then_some(&SNAPSHOTS);
+            REHEARSAL.iter().chain(snapshots).map(observable).collect()
+        }
     }
 }
 
@@ -24,13 +27,15 @@ fn observable(row: &Row) -> Observable {
     }
 }
 
-use ObservableKind::{Scalar, Series};
+use ObservableKind::{Profile, Scalar, Series};
 
 const REHEARSAL: &[Row] = &[
     ("limit", "1", Scalar, "limit of the series"),
     ("scale", "1", Scalar, "scale that the error depends on"),
     ("value", "1", Series, "the series"),
 ];
+
+const SNAPSHOTS: Row = ("snapshots", "1", Profile, "every grain at some instants");
 
 /// References by name, and whether each is a curve.
 pub const REFERENCES: &[(&str, ObservableKind)] = &[

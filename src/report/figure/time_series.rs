@@ -4,6 +4,7 @@ use super::super::axis::Scale;
 use super::super::canvas::Area;
 use super::super::panel::{Axis, Panel};
 use super::lines::{self, Line};
+use super::replicates::deviation_of;
 use super::{Cell, Material, Plate, Table, cited};
 use crate::report::{ReportError, format, selection};
 use crate::store::model::{Column, Run};
@@ -36,10 +37,13 @@ pub fn draw(
         },
         Axis {
             title: format!("{quantity}{}", value.in_brackets()),
-            scale: Scale::linear(all().flat_map(|line| line.y.iter().map(|y| y * value.factor))),
+            scale: Scale::linear(all().flat_map(|line| line.all_y().into_iter().map(|y| y * value.factor))),
         },
     );
     let factors = (time.factor, value.factor);
+    for line in &drawn {
+        lines::shade(&mut panel, line, factors);
+    }
     for line in all() {
         lines::draw(&mut panel, line, factors);
     }
@@ -110,6 +114,9 @@ fn start_inset<'a, I: Iterator<Item = &'a Line>>(
     let up = Scale::linear(shown.map(|(_, y)| y * factors.1)).with_at_most(6);
     let across = Scale::tight([0.0, window]).with_at_most(5);
     panel.inset(plot, across, up, |inner| {
+        for line in drawn {
+            lines::shade(inner, line, factors);
+        }
         for line in all() {
             lines::draw(inner, line, factors);
         }
@@ -147,6 +154,13 @@ fn series<'a>(run: &'a Run, of: &str) -> Result<(&'a Column, &'a Column), Report
     })
 }
 
+/// The scatter over seeds of a mean.
+fn scatter(run: &Run, of: &str) -> Option<lines::Band> {
+    let column = run.table(TABLE)?.column(&deviation_of(of))?;
+    let half = column.values.clone();
+    Some(lines::Band { half, across: false })
+}
+
 fn computed(
     material: &Material,
     of: &[String],
@@ -167,12 +181,14 @@ fn computed(
             }
             let (style, opacity, markers) = looks[index + place * material.runs.len()];
             let (x, y) = (time.values.clone(), column.values.clone());
+            let band = scatter(run, quantity);
             drawn.push(Line {
                 x,
                 y,
                 style,
                 opacity,
                 markers,
+                band,
             });
         }
     }
@@ -199,6 +215,7 @@ fn references(material: &Material, against: Option<&str>) -> Result<Vec<(Line, S
                 style,
                 opacity: 1.0,
                 markers: None,
+                band: None,
             };
             found.push((line, curve.source));
         }
@@ -220,6 +237,10 @@ fn table(
 ) -> Result<Table, ReportError> {
     let mut head = vec!["run".to_owned(), "time [s]".to_owned()];
     head.extend(of.iter().map(|name| format!("{name} [{unit}]")));
+    let means = material.runs.iter().any(|run| scatter(run, &of[0]).is_some());
+    if means {
+        head.extend(of.iter().map(|name| format!("{} [{unit}]", deviation_of(name))));
+    }
     head.extend(against.map(|name| format!("{name} [{unit}]")));
     let mut rows = Vec::new();
     for run in &material.runs {
@@ -230,6 +251,7 @@ fn table(
             Some(name) => Some((material.numbers.curve)(run, name, &times).map_err(ReportError)?),
             None => None,
         };
+        let scatters: Vec<_> = of.iter().map(|name| scatter(run, name)).collect();
         let label = selection::label(material.study, run);
         for (index, time) in times.iter().enumerate() {
             let mut row = vec![Cell::Words(label.clone()), Cell::Number(*time)];
@@ -238,6 +260,13 @@ fn table(
                     .iter()
                     .map(|column| Cell::from(column.get(index).copied())),
             );
+            if means {
+                let scatter = scatters.iter();
+                row.extend(
+                    scatter
+                        .map(|band| Cell::from(band.as_ref().and_then(|band| band.half.get(index).copied()))),
+                );
+            }
             row.extend(
                 reference
                     .iter()

@@ -251,6 +251,8 @@ pub struct RehearsalSpec {
     pub scale: Fraction,
     pub order: Fraction,
     pub error: Fraction,
+    /// Grains in the snapshots; 0 for no snapshots.
+    pub grains: u32,
     /// Real time to spend.
     pub delay: Time,
     pub ending: EndingSpec,
@@ -266,6 +268,7 @@ impl Default for RehearsalSpec {
             scale: Fraction(1.0),
             order: Fraction(1.0),
             error: Fraction(0.0),
+            grains: 0,
             delay: Time(0.0),
             ending: EndingSpec::Completes,
         }

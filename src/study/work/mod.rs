@@ -114,6 +114,7 @@ fn rehearsed(spec: &RehearsalSpec) -> Rehearsal {
         scale: spec.scale.0,
         order: spec.order.0,
         error: spec.error.0,
+        grains: spec.grains,
         delay: spec.delay.0,
         ending: match spec.ending {
             EndingSpec::Completes => RehearsalEnding::Completes,
