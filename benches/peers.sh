@@ -5,7 +5,7 @@
 #
 # Installs the peers from packages and settles the beds in a folder of its own, once; nothing outside it changes, and
 # deleting it undoes everything. Prints the lines that peers/speed.py describes, `RATIO <peer> <case> <ours/theirs>`
-# among them. Ends with 1 where a ratio that was asked for is missing.
+# among them. Ends with 1 where a measurement or a ratio that was asked for is missing.
 #
 # Grains of 250 um and 2460 kg/m3 in a liquid of 1005.1 kg/m3 and 1 mPa s; Young's modulus 1 MPa, Poisson's ratio 0.29,
 # friction 0.3, rolling 0.002, damping time 20 us, step 10 us; six rigid walls, Stokes' drag. LIGGGHTS has Hertz,
@@ -68,6 +68,7 @@ install_liggghts() {
     # shellcheck disable=SC2086 # names, one word each
     (cd "$folder/debian/packages" && apt-get download -q $packages >/dev/null) || return
     for file in "$folder"/debian/packages/*.deb; do dpkg-deb -x "$file" "$folder/debian" || return; done
+    rm -rf "$folder/debian/packages"
     libraries=$(find "$folder/debian" -name '*.so*' -printf '%h\n' | sort -u | paste -sd:)
     launcher liggghts OMP_NUM_THREADS=1 "LD_LIBRARY_PATH=$libraries" "OPAL_PREFIX=$folder/debian/usr" \
         OMPI_MCA_mca_base_component_show_load_errors=0 "$folder/debian/usr/bin/liggghts"

@@ -10,8 +10,10 @@ A bed file is text in metres: `width depth height` of the box, then one line `x 
     bed.py data BED DATA                  the data file that LAMMPS and LIGGGHTS read
 """
 import argparse
+import contextlib
 import itertools
 import math
+import os
 import random
 
 DIAMETER = 250e-6  # m
@@ -24,8 +26,16 @@ def read(path):
         return box, [tuple(map(float, line.split())) for line in lines]
 
 
+@contextlib.contextmanager
+def whole(path):
+    """A file to write that appears under its name only when all of it is there."""
+    with open(path + ".new", "w") as out:
+        yield out
+    os.replace(path + ".new", path)
+
+
 def write(path, box, grains):
-    with open(path, "w") as out:
+    with whole(path) as out:
         for numbers in (box, *grains):
             out.write(" ".join(f"{number:.12e}" for number in numbers) + "\n")
 
@@ -81,7 +91,7 @@ def tile(low, path):
 
 def data(bed, path):
     box, grains = read(bed)
-    with open(path, "w") as out:
+    with whole(path) as out:
         out.write(f"grains\n\n{len(grains)} atoms\n1 atom types\n\n")
         for axis, side in zip("xyz", box):
             out.write(f"0 {side:.12e} {axis}lo {axis}hi\n")
