@@ -170,12 +170,7 @@ fn start(region: &Region, radii: &[f64], fraction: f64, random: &mut Random) -> 
     };
     loop {
         let shrunken: Vec<f64> = radii.iter().map(|r| scale * r).collect();
-        if let Some(mut positions) = insert(region, &shrunken, random) {
-            for (position, &radius) in positions.iter_mut().zip(radii) {
-                for axis in 0..3 {
-                    position[axis] = region.confine(axis, radius, position[axis]);
-                }
-            }
+        if let Some(positions) = insert(region, &shrunken, random) {
             return positions;
         }
         scale *= 0.8;

@@ -46,9 +46,14 @@ struct Pace {
 
 impl<'a> Relaxation<'a> {
     /// `excess` [-] is how much larger than true the radii are while grains push each other.
-    pub(super) fn new(region: &'a Region, radii: &[f64], positions: Vec<Vec3>, excess: f64) -> Self {
+    pub(super) fn new(region: &'a Region, radii: &[f64], mut positions: Vec<Vec3>, excess: f64) -> Self {
         let smallest = radii.iter().copied().fold(f64::INFINITY, f64::min);
         let mean = radii.iter().sum::<f64>() / radii.len() as f64;
+        for (position, &radius) in positions.iter_mut().zip(radii) {
+            for axis in 0..3 {
+                position[axis] = region.confine(axis, radius, position[axis]);
+            }
+        }
         let zeros = vec![Vec3::zeros(); radii.len()];
         let mut relaxation = Relaxation {
             region,
