@@ -13,6 +13,8 @@ const DENSEST: [f64; 2] = [0.60, 0.80];
 /// Fewest largest diameters across a periodic box: no grain may meet itself.
 const FEWEST_ACROSS: f64 = 3.0;
 const MOST_THREADS: u32 = 64;
+/// Every class meets every other one when the step is picked.
+const MOST_CLASSES: usize = 64;
 
 pub fn check(scene: &Sedimentation, list: &mut List) {
     let mut sound = classes(scene, list);
@@ -39,7 +41,18 @@ fn classes(scene: &Sedimentation, list: &mut List) -> bool {
         let help = "give one at least; `number: 0` leaves the box empty";
         list.add("classes", "there is no class of grains".to_owned(), help);
     }
-    let mut sound = !scene.classes.is_empty();
+    if scene.classes.len() > MOST_CLASSES {
+        let message = format!(
+            "there are {} classes, {MOST_CLASSES} is the most",
+            scene.classes.len()
+        );
+        list.add(
+            "classes",
+            message,
+            "`largest_diameter` spreads sizes within a class",
+        );
+    }
+    let mut sound = (1..=MOST_CLASSES).contains(&scene.classes.len());
     for (index, class) in scene.classes.iter().enumerate() {
         sound &= one_class(&class_path(scene, index), class, list);
     }

@@ -13,6 +13,8 @@ use crate::scene::{Description, IntegratorChoice};
 const GRAIN_COST: f64 = 0.25;
 /// Cost of trying one pair over that of a fluid particle.
 const TRIAL_COST: f64 = 1e-3;
+/// Memory of a run without grains [bytes].
+const MEMORY: f64 = 1e6;
 /// Memory of a grain: its state, contacts and row of the list of pairs [bytes].
 const GRAIN_MEMORY: f64 = 1000.0;
 /// Memory of a grain in a snapshot [bytes]: eleven columns, twice while they are handed over.
@@ -26,7 +28,7 @@ pub fn describe(scene: &Sedimentation) -> Description {
         grains: scene.grains(),
         steps: steps as u64,
         work: steps * grains * step_cost(scene, grains),
-        memory: (1 << 20) + (grains * (GRAIN_MEMORY + f64::from(scene.snapshots) * ROW_MEMORY)) as u64,
+        memory: (MEMORY + grains * (GRAIN_MEMORY + f64::from(scene.snapshots) * ROW_MEMORY)) as u64,
         ..Description::default()
     };
     grains_in_words(scene, &mut description);
