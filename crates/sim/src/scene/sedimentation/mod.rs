@@ -5,9 +5,11 @@ mod describe;
 mod model;
 mod observables;
 mod population;
+mod room;
 mod run;
 mod settling;
 mod step;
+mod warnings;
 
 pub use model::{
     Arrangement, Cohesion, Container, Detection, Dimensions, Floor, GrainClass, GrainDrag, Lift,
