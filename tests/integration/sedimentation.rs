@@ -54,7 +54,7 @@ scene:
     snapshots: 11
 ";
 
-const OTHER: &str = "
+pub const OTHER: &str = "
 question: Does a bed form?
 scene:
   sedimentation:
@@ -83,7 +83,7 @@ scene:
     snapshots: 0
 ";
 
-const VARIED: &str = "
+pub const VARIED: &str = "
 question: Does a bed form?
 scene:
   sedimentation:

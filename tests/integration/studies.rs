@@ -7,6 +7,8 @@ use kynch::study::{self};
 use kynch_sim::scene::{Fluid, Scene};
 use proptest::prelude::*;
 
+use crate::sedimentation::{OTHER, VARIED};
+
 fn load(name: &str) -> Study {
     let path = study::find(name).expect("a study");
     study::load(&path).unwrap_or_else(|error| panic!("{error}"))
@@ -203,10 +205,10 @@ proptest! {
 
     #[test]
     fn no_mutation_of_a_study_panics(
-        which in 0..2usize,
+        which in 0..4usize,
         edits in prop::collection::vec((any::<prop::sample::Index>(), 0..12usize, snippet()), 1..6),
     ) {
-        let good = [SPHERES, include_str!("../../studies/smoke.yaml")];
+        let good = [SPHERES, include_str!("../../studies/smoke.yaml"), OTHER, VARIED];
         let mut text: Vec<char> = good[which].chars().collect();
         for (place, removed, inserted) in edits {
             let from = place.index(text.len() + 1);

@@ -5,6 +5,7 @@ use super::model::{
     StillFluid, Voidage,
 };
 use super::step::{Limits, limits};
+use super::warnings::warnings;
 use crate::contact::Body;
 use crate::scene::collision::{describe_laws, integrator};
 use crate::scene::{Description, IntegratorChoice};
@@ -13,6 +14,8 @@ use crate::scene::{Description, IntegratorChoice};
 const GRAIN_COST: f64 = 0.25;
 /// Cost of trying one pair over that of a fluid particle.
 const TRIAL_COST: f64 = 1e-3;
+/// Memory of a run without grains [bytes].
+const MEMORY: f64 = 1e6;
 /// Memory of a grain: its state, contacts and row of the list of pairs [bytes].
 const GRAIN_MEMORY: f64 = 1000.0;
 /// Memory of a grain in a snapshot [bytes]: eleven columns, twice while they are handed over.
@@ -26,7 +29,7 @@ pub fn describe(scene: &Sedimentation) -> Description {
         grains: scene.grains(),
         steps: steps as u64,
         work: steps * grains * step_cost(scene, grains),
-        memory: (1 << 20) + (grains * (GRAIN_MEMORY + f64::from(scene.snapshots) * ROW_MEMORY)) as u64,
+        memory: (MEMORY + grains * (GRAIN_MEMORY + f64::from(scene.snapshots) * ROW_MEMORY)) as u64,
         ..Description::default()
     };
     grains_in_words(scene, &mut description);
@@ -251,71 +254,4 @@ fn bond_number(scene: &Sedimentation) -> Option<f64> {
         force / (grain.mass * scene.gravity)
     };
     scene.extremes().iter().map(ratio).reduce(f64::max)
-}
-
-fn warnings(
-    scene: &Sedimentation,
-    limits: &Limits,
-    fall: f64,
-    bond: Option<f64>,
-    description: &mut Description,
-) {
-    let mut warn = |holds: bool, words: String| {
-        if holds {
-            description.warnings.push(words);
-        }
-    };
-    warn(
-        scene.duration < fall && fall.is_finite(),
-        format!(
-            "the run lasts {}, a grain falls from the top in about {}",
-            seconds(scene.duration),
-            seconds(fall)
-        ),
-    );
-    warn(
-        limits.time_step > limits.longest * (1.0 + 1e-9),
-        format!(
-            "the time step {:.3e} s is beyond its limit {} of {:.3e} s",
-            limits.time_step, limits.name, limits.longest
-        ),
-    );
-    warn(
-        limits.overlap > 0.02,
-        format!(
-            "contacts are soft: impacts overlap by {:.1} % of a diameter",
-            100.0 * limits.overlap
-        ),
-    );
-    let bond = bond.unwrap_or_default();
-    let hang = match (scene.container.sides, scene.cohesion) {
-        (Sides::Walls, Some(cohesion)) if cohesion.walls => ", and grains may hang on the walls",
-        _ => "",
-    };
-    warn(
-        bond > 1.0,
-        format!("cohesion is {bond:.1} times the weight of a grain: the bed will be loose{hang}"),
-    );
-    let lightest = scene
-        .present()
-        .map(|class| class.density)
-        .fold(f64::INFINITY, f64::min);
-    warn(
-        lightest < scene.fluid.medium().density,
-        "some grains are lighter than the fluid: they rise and leave the box at its open top".to_owned(),
-    );
-    warn(scene.gravity == 0.0, "without gravity nothing settles".to_owned());
-    warn(
-        scene.threads > 1 && scene.grains() < 20_000,
-        "several threads seldom pay below 20000 grains".to_owned(),
-    );
-}
-
-/// A time with three digits.
-fn seconds(time: f64) -> String {
-    if (0.01..1e4).contains(&time) {
-        format!("{time:.3} s")
-    } else {
-        format!("{time:.2e} s")
-    }
 }

@@ -6,10 +6,12 @@ mod model;
 mod observables;
 mod observe;
 mod population;
+mod room;
 mod run;
 mod settling;
 mod start;
 mod step;
+mod warnings;
 
 pub use model::{
     Arrangement, Cohesion, Container, Detection, Dimensions, Floor, GrainClass, GrainDrag, Lift,

@@ -286,6 +286,27 @@ fn grains_that_do_not_fit_are_refused() {
 }
 
 #[test]
+fn a_crowd_of_classes_is_refused() {
+    let mut scene = box_of_grains();
+    scene.classes = vec![scene.classes[0]; 65];
+    assert_eq!(faults(scene), ["classes"]);
+}
+
+#[test]
+fn measures_beyond_all_bounds_are_described_without_a_panic() {
+    let mut scene = box_of_grains();
+    scene.classes[0].diameter = 1e-12;
+    scene.classes[0].number = u32::MAX;
+    scene.snapshots = u32::MAX;
+    scene.duration = 1e300;
+    for density in [1e-30, 2460.0, 1e30] {
+        scene.classes[0].density = density;
+        assert_eq!(faults(scene.clone()), Vec::<String>::new());
+        assert!(describe(&Scene::Sedimentation(scene.clone())).memory > 1 << 40);
+    }
+}
+
+#[test]
 fn an_empty_box_and_a_box_without_gravity_can_be_described() {
     for (number, gravity) in [(0, 9.81), (1, 0.0), (0, 0.0)] {
         let mut scene = box_of_grains();
