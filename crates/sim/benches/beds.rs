@@ -5,8 +5,9 @@
 //! ```
 //!
 //! A bed file holds `width depth height` and then `x y z radius` of every grain, in metres. Hertz
-//! contacts with Mindlin friction, damping time 20 µs, Stokes drag, six rigid walls; the same steps run
-//! once to warm up. Without a file a loose lattice is dropped.
+//! contacts with Mindlin friction, damping time 20 µs, Stokes drag, six rigid walls. A settled bed first
+//! runs the same steps untimed, since its contacts begin without history. Without a file a loose lattice is
+//! dropped. The time is that of the processor, where the system tells it.
 
 use std::time::Instant;
 
@@ -42,11 +43,13 @@ fn main() {
         None => loose(),
     };
     let mut bed = bed(size, &spheres, walls || file.is_none(), rolling);
-    bed.advance(steps).expect("the bed stays where it is");
+    if !bed.contacts().pairs.is_empty() {
+        bed.advance(steps).expect("the bed stays where it is");
+    }
     let work = bed.work;
-    let start = Instant::now();
+    let clock = Clock::start();
     bed.advance(steps).expect("the bed stays where it is");
-    let time = start.elapsed().as_secs_f64();
+    let time = clock.seconds();
     let count = spheres.len();
     println!(
         "BENCH bed_{count} {:.4e} particle-steps/s",
@@ -58,6 +61,33 @@ fn main() {
         bed.work.lists - work.lists,
         bed.deepest
     );
+}
+
+/// Time of this thread on the processor; the time of day where the system does not tell it.
+struct Clock {
+    processor: Option<f64>,
+    day: Instant,
+}
+
+impl Clock {
+    fn start() -> Clock {
+        Clock {
+            processor: processor_time(),
+            day: Instant::now(),
+        }
+    }
+
+    fn seconds(&self) -> f64 {
+        match (self.processor, processor_time()) {
+            (Some(start), Some(end)) => end - start,
+            _ => self.day.elapsed().as_secs_f64(),
+        }
+    }
+}
+
+fn processor_time() -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/self/schedstat").ok()?;
+    Some(text.split_whitespace().next()?.parse::<f64>().ok()? * 1e-9)
 }
 
 /// Sides of the box, and position and radius of every grain [m].
