@@ -227,9 +227,9 @@ pub struct Stretch<'a> {
 impl PairList {
     pub fn whole(&mut self) -> Stretch<'_> {
         Stretch {
-            blocks: &self.blocks,
-            histories: &mut self.histories,
-            live: &mut self.live,
+            blocks: &self.blocks[..self.active],
+            histories: &mut self.histories[..self.active],
+            live: &mut self.live[..self.active],
         }
     }
 }

@@ -57,7 +57,11 @@ impl Crew {
 
     /// Learns a new list.
     pub fn learn(&mut self, pairs: &PairList, grains: &Grains) {
-        let members = || pairs.blocks.iter().flat_map(|block| block.members.as_flattened());
+        let members = || {
+            pairs.blocks[..pairs.active]
+                .iter()
+                .flat_map(|block| block.members.as_flattened())
+        };
         self.starts.clear();
         self.starts.resize(grains.motion.len() + 1, 0);
         for member in members() {
@@ -67,14 +71,14 @@ impl Crew {
             self.starts[grain + 1] += self.starts[grain];
         }
         let mut next = self.starts.clone();
-        self.entries.resize(pairs.blocks.len() * 2 * LANES, 0);
+        self.entries.resize(pairs.active * 2 * LANES, 0);
         for (entry, member) in members().enumerate() {
             let slot = &mut next[*member as usize];
             self.entries[*slot as usize] = entry as u32;
             *slot += 1;
         }
         self.efforts.clear();
-        self.efforts.resize_with(pairs.blocks.len(), || None);
+        self.efforts.resize_with(pairs.active, || None);
     }
 
     /// Sums the forces of all pairs; returns the greatest overlap over the smaller diameter.
@@ -93,11 +97,15 @@ impl Crew {
             entries,
         } = self;
         pool.install(|| {
-            let deepest = pairs
-                .blocks
+            let Stretch {
+                blocks,
+                histories,
+                live,
+            } = pairs.whole();
+            let deepest = blocks
                 .par_chunks(BLOCKS)
-                .zip(pairs.histories.par_chunks_mut(BLOCKS))
-                .zip(pairs.live.par_chunks_mut(BLOCKS))
+                .zip(histories.par_chunks_mut(BLOCKS))
+                .zip(live.par_chunks_mut(BLOCKS))
                 .zip(efforts.par_chunks_mut(BLOCKS))
                 .map(|(((blocks, histories), live), efforts)| {
                     let pairs = Stretch {

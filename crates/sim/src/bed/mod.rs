@@ -10,6 +10,7 @@ mod grains;
 mod motion;
 mod pairs;
 mod scheme;
+mod sleep;
 mod slices;
 mod touching;
 mod walls;
@@ -30,6 +31,7 @@ use contacts::PairSweep;
 use crew::Crew;
 use motion::{KickAndDrift, Stride};
 use pairs::PairList;
+use sleep::Sleep;
 use walls::{WallSweep, Walls};
 
 /// Skin of a list where every step makes its own [m over the smallest diameter].
@@ -86,6 +88,8 @@ pub struct Bed {
     forces: Vec<Record>,
     /// `None` where one thread does everything.
     crew: Option<Crew>,
+    /// `None` where nobody ever sleeps.
+    sleep: Option<Sleep>,
     /// Way every grain may go before the lists must be renewed [m].
     slack: f64,
     /// Smallest diameter [m].
@@ -118,6 +122,7 @@ impl Bed {
             walls: Walls::new(walls),
             pairs: PairList::default(),
             crew: None,
+            sleep: None,
             slack: 0.0,
             smallest,
         };
@@ -145,6 +150,9 @@ impl Bed {
     pub fn advance(&mut self, steps: u64) -> Result<(), Astray> {
         let dt = self.interaction.time_step;
         for step in 0..steps {
+            if self.sleep.as_ref().is_some_and(|sleep| sleep.all(&self.grains)) {
+                return Ok(());
+            }
             let kick = if step == 0 { 0.5 * dt } else { dt };
             let fastest = self.move_on(kick, dt)?;
             self.work.steps += 1;
@@ -156,6 +164,7 @@ impl Bed {
                 porosity.follow(&mut self.grains, &self.surroundings, fastest * dt, dt);
             }
             self.sum_forces(dt);
+            self.rouse_and_rest();
         }
         if steps > 0 {
             self.move_on(0.5 * dt, 0.0)?;
@@ -243,6 +252,7 @@ impl Bed {
         if let Some(crew) = &mut self.crew {
             crew.learn(&self.pairs, grains);
         }
+        self.find_border();
         self.work.lists += 1;
     }
 

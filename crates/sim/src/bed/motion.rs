@@ -104,7 +104,7 @@ fn eight<W: Wide>(
     [motion, spin, forces]: [[W; 8]; 3],
 ) -> ([W; 8], [W; 8], W) {
     let [x, y, z, radius, vx, vy, vz, inverse_mass] = motion;
-    let [wx, wy, wz, inverse_inertia, porosity, fluid, neighbours, spare] = spin;
+    let [wx, wy, wz, inverse_inertia, porosity, fluid, neighbours, awake] = spin;
     let displaced = W::splat(4.0 / 3.0 * PI * surroundings.fluid_density * surroundings.gravity);
     let buoyancy = displaced * radius * radius * radius;
     let mut push = Vector::new(forces[0], forces[1], forces[2] + buoyancy + neighbours) * inverse_mass;
@@ -123,6 +123,8 @@ fn eight<W: Wide>(
             velocity + (push + slip * rate) * (kick * mean_decay(rate * kick))
         }
     };
+    // Sleepers stay where they are.
+    let velocity = velocity * awake;
     let turn = inverse_inertia * kick;
     let drift = W::splat(stride.drift);
     (
@@ -137,14 +139,14 @@ fn eight<W: Wide>(
             inverse_mass,
         ],
         [
-            wx + forces[4] * turn,
-            wy + forces[5] * turn,
-            wz + forces[6] * turn,
+            (wx + forces[4] * turn) * awake,
+            (wy + forces[5] * turn) * awake,
+            (wz + forces[6] * turn) * awake,
             inverse_inertia,
             porosity,
             fluid,
             neighbours,
-            spare,
+            awake,
         ],
         velocity.norm_squared(),
     )

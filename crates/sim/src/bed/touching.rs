@@ -1,7 +1,7 @@
 //! Who touches whom, and whether action equals reaction.
 
 use crate::math::Vec3;
-use crate::neighbours::{LANES, in_widest};
+use crate::neighbours::in_widest;
 
 use super::Bed;
 use super::contacts::PairSweep;
@@ -78,5 +78,5 @@ impl Bed {
 }
 
 fn members(list: &PairList) -> impl Iterator<Item = [u32; 2]> + '_ {
-    (0..list.count).map(|pair| list.blocks[pair / LANES].members.map(|end| end[pair % LANES]))
+    list.pairs().map(|(.., pair)| pair)
 }

@@ -56,7 +56,7 @@ pub fn start(scene: &Sedimentation) -> Result<Bed, Fault> {
         Detection::Cells => Listing::EveryStep(Search::Grid),
         Detection::BruteForce => Listing::EveryStep(Search::BruteForce),
     };
-    Ok(Bed::new(
+    let bed = Bed::new(
         grains,
         &walls(scene),
         interaction(scene),
@@ -64,7 +64,8 @@ pub fn start(scene: &Sedimentation) -> Result<Bed, Fault> {
         listing,
         porosity(scene),
     )
-    .with_threads(scene.threads as usize))
+    .with_threads(scene.threads as usize);
+    Ok(if scene.sleeping { bed.with_sleeping() } else { bed })
 }
 
 /// Sizes and classes of all moving grains; sizes of a spread class are drawn in turn.

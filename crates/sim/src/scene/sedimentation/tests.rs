@@ -414,3 +414,34 @@ fn all_ways_to_find_pairs_lead_to_the_same_bed() {
         );
     }
 }
+
+#[test]
+fn sleepers_leave_the_bed_as_it_is_and_most_of_the_work_undone() {
+    let with = |sleeping| {
+        let mut scene = box_of_grains();
+        scene.classes[0].number = 150;
+        scene.container.width = 1.5e-3;
+        scene.container.depth = 1.5e-3;
+        scene.container.height = 4e-3;
+        scene.duration = 0.6;
+        scene.sleeping = sleeping;
+        let outcome = run(&Scene::Sedimentation(scene), &Control::SILENT).expect("a finished run");
+        let scalar = |name| {
+            outcome
+                .scalars
+                .iter()
+                .find(|scalar| scalar.name == name)
+                .map(|scalar| scalar.value)
+        };
+        let (porosity, share) = (scalar("porosity"), scalar("settled_share"));
+        (
+            porosity.expect("a porosity"),
+            share.expect("a share"),
+            outcome.counters.grain_pairs,
+        )
+    };
+    let ((awake, settled, all), (asleep, settled_too, few)) = (with(false), with(true));
+    assert_eq!((settled, settled_too), (1.0, 1.0));
+    assert!((asleep - awake).abs() < 0.02, "{asleep} for {awake}");
+    assert!(few < all * 2 / 3, "{few} of {all}");
+}
