@@ -2,7 +2,10 @@
 
 mod check;
 pub mod convergence;
+#[cfg(test)]
+mod data_tests;
 pub mod exit;
+mod interpolation;
 pub mod model;
 pub mod pareto;
 pub mod point_error;
@@ -12,7 +15,7 @@ mod tests;
 pub mod words;
 
 use crate::store::model::Run;
-use crate::study::model::{Check, Expectation, Selection, Study};
+use crate::study::model::{Check, Expectation, Norm, Selection, Study};
 use check::Finding;
 use model::{Outcome, Verdict};
 
@@ -30,7 +33,12 @@ fn verdict(study: &Study, runs: &[Run], expectation: &Expectation) -> Verdict {
     let finding = match &expectation.check {
         _ if groups.is_empty() => Finding::default(),
         Check::Value { of, band } => check::value::check(&groups, of, band),
-        Check::Error { of, against, below } => check::error::check(&groups, of, against, *below),
+        Check::Error {
+            of,
+            against,
+            below,
+            norm,
+        } => check::error::check(&groups, of, against, *below, *norm),
         Check::Order {
             of,
             against,
@@ -135,9 +143,18 @@ impl Phrase {
                     band: words,
                 }
             }
-            Check::Error { of, against, below } => Phrase {
+            Check::Error {
+                of,
+                against,
+                below,
+                norm,
+            } => Phrase {
                 statement: format!(
-                    "relative error of `{of}` against the reference `{against}` < {}",
+                    "{} of `{of}` against the reference `{against}` < {}",
+                    match norm {
+                        Norm::Maximum => "relative error",
+                        Norm::RootMeanSquare => "relative root mean square error",
+                    },
                     words::percent(*below)
                 ),
                 quantity: of.clone(),

@@ -70,7 +70,9 @@ fn a_setting_without_a_row_is_told_what_there_is() {
          `grains.diameter` 0.001 m; there are 0.0005, 0.0008, 0.0015 m"
     );
     assert_eq!(
-        scalar("dong_2006", &json!({"rehearsal": {"limit": 1.0}})).unwrap_err().0,
+        scalar("dong_2006", &json!({"rehearsal": {"limit": 1.0}}))
+            .unwrap_err()
+            .0,
         "the reference `dong_2006` (alvim2016_table7_solid_fraction.csv) is looked up by `fluid.density`, a number \
          that the settings of `rehearsal` do not have"
     );
@@ -96,8 +98,14 @@ fn a_curve_keeps_its_own_times_and_a_value_is_a_level() {
     );
     let level = reference::series("mordant_pinton_2000_terminal", &facts(&settings), &[0.0, 9.0]).unwrap();
     assert_eq!(level.values, [0.0741, 0.0741]);
-    assert_eq!(reference::points("mordant_pinton_2000_terminal", &facts(&settings)), Ok(None));
-    assert_eq!(reference::points("terminal_velocity", &facts(&settings)), Ok(None));
+    assert_eq!(
+        reference::points("mordant_pinton_2000_terminal", &facts(&settings)),
+        Ok(None)
+    );
+    assert_eq!(
+        reference::points("terminal_velocity", &facts(&settings)),
+        Ok(None)
+    );
 }
 
 #[test]
@@ -143,7 +151,11 @@ fn every_reference_of_the_index_reads_from_its_table() {
         let columns = columns.into_iter().flatten().chain(named.reference.by.values());
         for column in columns {
             let values = column.read(&table).unwrap();
-            assert!(!values.is_empty() && values.iter().all(|value| value.is_finite()), "{}", named.name);
+            assert!(
+                !values.is_empty() && values.iter().all(|value| value.is_finite()),
+                "{}",
+                named.name
+            );
         }
         names.push(named.name);
     }

@@ -5,6 +5,7 @@ use super::super::canvas::Area;
 use super::super::panel::{Axis, Panel};
 use super::lines::{self, Line};
 use super::{Cell, Material, Plate, Table, cited};
+use crate::report::numbers::Measured;
 use crate::report::{ReportError, format, selection};
 use crate::store::model::{Column, Run};
 
@@ -186,6 +187,10 @@ fn references(material: &Material, against: Option<&str>) -> Result<Vec<(Line, S
     };
     let mut found: Vec<(Line, String)> = Vec::new();
     for run in &material.runs {
+        if let Some(points) = (material.numbers.points)(run, name).map_err(ReportError)? {
+            measured(points, &times(run)?, &mut found);
+            continue;
+        }
         let times = times(run)?;
         let curve = (material.numbers.curve)(run, name, &times).map_err(ReportError)?;
         let known = found
@@ -204,6 +209,24 @@ fn references(material: &Material, against: Option<&str>) -> Result<Vec<(Line, S
         }
     }
     Ok(found)
+}
+
+/// Adds a measured curve, as far as the run lasts, unless it is there.
+fn measured(points: Measured, times: &[f64], found: &mut Vec<(Line, String)>) {
+    let last = times.last().copied().unwrap_or(0.0);
+    let within = points.times.iter().zip(&points.values);
+    let (x, y): (Vec<f64>, Vec<f64>) = within.filter(|(time, _)| **time <= last).unzip();
+    if found.iter().any(|(line, _)| line.x == x && line.y == y) {
+        return;
+    }
+    let line = Line {
+        x,
+        y,
+        style: lines::reference_style(),
+        opacity: 1.0,
+        markers: None,
+    };
+    found.push((line, points.source));
 }
 
 fn times(run: &Run) -> Result<Vec<f64>, ReportError> {
@@ -226,11 +249,17 @@ fn table(
         let times = times(run)?;
         let columns = of.iter().map(|name| Ok(&series(run, name)?.1.values));
         let columns = columns.collect::<Result<Vec<_>, ReportError>>()?;
-        let reference = match against {
-            Some(name) => Some((material.numbers.curve)(run, name, &times).map_err(ReportError)?),
-            None => None,
-        };
         let label = selection::label(material.study, run);
+        let mut reference = None;
+        if let Some(name) = against {
+            match (material.numbers.points)(run, name).map_err(ReportError)? {
+                Some(points) => rows.extend(own_rows(&points, &label, of.len())),
+                None => {
+                    let curve = (material.numbers.curve)(run, name, &times).map_err(ReportError)?;
+                    reference = Some(curve);
+                }
+            }
+        }
         for (index, time) in times.iter().enumerate() {
             let mut row = vec![Cell::Words(label.clone()), Cell::Number(*time)];
             row.extend(
@@ -238,13 +267,24 @@ fn table(
                     .iter()
                     .map(|column| Cell::from(column.get(index).copied())),
             );
-            row.extend(
-                reference
-                    .iter()
-                    .map(|curve| Cell::from(curve.values.get(index).copied())),
-            );
+            row.extend(against.map(|_| {
+                let values = reference.as_ref().map(|curve| &curve.values);
+                Cell::from(values.and_then(|values| values.get(index).copied()))
+            }));
             rows.push(row);
         }
     }
     Ok(Table { head, rows })
+}
+
+/// Measured points stand at their own times, in rows without a computed value.
+fn own_rows(points: &Measured, label: &str, quantities: usize) -> Vec<Vec<Cell>> {
+    let pairs = points.times.iter().zip(&points.values);
+    let row = |(time, value): (&f64, &f64)| {
+        let mut row = vec![Cell::Words(label.to_owned()), Cell::Number(*time)];
+        row.extend(vec![Cell::Empty; quantities]);
+        row.push(Cell::Number(*value));
+        row
+    };
+    pairs.map(row).collect()
 }
