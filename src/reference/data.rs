@@ -33,6 +33,8 @@ pub struct DataReference {
     /// Settings of the run, as dotted paths, and the columns they are looked up in.
     #[serde(default)]
     pub by: BTreeMap<String, DataColumn>,
+    /// Where the file cites more than this reference needs.
+    pub citation_keys: Option<Vec<String>>,
 }
 
 /// A column with its unit.
@@ -114,7 +116,7 @@ impl Named<'static> {
         Ok(Expected {
             values: vec![self.reference.value.read(&table)?[row]],
             unit: &self.reference.value.unit,
-            source: self.library.source(self.file)?,
+            source: self.source()?,
         })
     }
 
@@ -125,7 +127,7 @@ impl Named<'static> {
             times,
             values,
             unit: &self.reference.value.unit,
-            source: self.library.source(self.file)?,
+            source: self.source()?,
         })
     }
 }
@@ -133,6 +135,13 @@ impl Named<'static> {
 impl Named<'_> {
     pub fn is_curve(&self) -> bool {
         self.reference.over.is_some()
+    }
+
+    fn source(&self) -> Result<String, ReferenceError> {
+        match &self.reference.citation_keys {
+            Some(keys) => self.library.cited(self.file, keys),
+            None => self.library.source(self.file),
+        }
     }
 
     fn curve(&self, table: &DataSet, case: &Case) -> Result<(Vec<f64>, Vec<f64>), ReferenceError> {

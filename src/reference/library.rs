@@ -98,7 +98,14 @@ impl Library {
     /// # Errors
     /// A file or a key that is not in the index.
     pub fn source(&self, file: &str) -> Result<String, ReferenceError> {
-        let keys = &self.entry(file)?.citation_keys;
+        self.cited(file, &self.entry(file)?.citation_keys)
+    }
+
+    /// The citations behind some keys, one line; `file` is who cites, for messages.
+    ///
+    /// # Errors
+    /// A key that is not in the index.
+    pub fn cited(&self, file: &str, keys: &[String]) -> Result<String, ReferenceError> {
         let citations: Result<Vec<_>, _> = keys
             .iter()
             .map(|key| {

@@ -157,6 +157,7 @@ fn every_reference_of_the_index_reads_from_its_table() {
                 named.name
             );
         }
+        assert!(named.source().unwrap().contains('('), "{}", named.name);
         names.push(named.name);
     }
     let count = names.len();
