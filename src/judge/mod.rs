@@ -2,8 +2,6 @@
 
 mod check;
 pub mod convergence;
-#[cfg(test)]
-mod data_tests;
 pub mod exit;
 mod interpolation;
 pub mod model;

@@ -1,3 +1,5 @@
+mod published;
+
 use super::exit::exit_code;
 use super::point_error::point_error;
 use super::*;

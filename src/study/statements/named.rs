@@ -106,13 +106,17 @@ impl Reader<'_, '_> {
     pub(super) fn reference(&mut self, name: &str, of: Option<&String>) {
         let works = self.context.works.values();
         let offered: Vec<Observable> = works.flat_map(observables).collect();
-        let kind = of
-            .and_then(|of| offered.iter().find(|observable| observable.name == of))
-            .map(|found| found.kind);
+        let found = of.and_then(|of| offered.iter().find(|observable| observable.name == of));
+        let kind = found.map(|found| found.kind);
+        let other_dimension = |name: &str| {
+            let data = published().iter().find(|entry| entry.name == name);
+            data.zip(found)
+                .is_some_and(|(data, found)| comparable(found.unit, &data.unit).is_err())
+        };
         let all = references();
         let fitting: Vec<&str> = all
             .iter()
-            .filter(|(_, is)| kind.is_none_or(|kind| kind == *is))
+            .filter(|(name, is)| kind.is_none_or(|kind| kind == *is) && !other_dimension(name))
             .map(|(name, _)| *name)
             .collect();
         match (all.iter().find(|(known, _)| *known == name), kind) {

@@ -195,7 +195,7 @@ fn single_sphere(scene: &SingleSphere, list: &mut List) {
     if let (true, Fluid::Sph(_)) = (scene.added_mass, &scene.fluid) {
         list.add(
             "added_mass",
-            "`added_mass: on` stands beside an `sph` fluid, whose particles are pushed along themselves"
+            "`added_mass: on` does not go with an `sph` fluid: its particles carry their own inertia"
                 .to_owned(),
             "leave it off, or take the fluid `still` or `column`",
         );

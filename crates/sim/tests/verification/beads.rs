@@ -117,7 +117,6 @@ fn added_mass_beside_fluid_particles_is_refused() {
         .iter()
         .map(|fault| (fault.path.as_str(), fault.message.as_str()))
         .collect();
-    let message =
-        "`added_mass: on` stands beside an `sph` fluid, whose particles are pushed along themselves";
+    let message = "`added_mass: on` does not go with an `sph` fluid: its particles carry their own inertia";
     assert_eq!(told, [("added_mass", message)]);
 }

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::point_error::point_error;
+use crate::judge::point_error::point_error;
 use crate::store::model::{Column, PointId, Run, Scalar, Status, Table, Timing};
 use crate::study::model::Norm;
 
