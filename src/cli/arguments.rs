@@ -115,7 +115,7 @@ pub struct Replicates {
 
 #[derive(Debug, Args)]
 pub struct Limits {
-    /// Points at a time [default: the cores there are]
+    /// Threads at a time; a point takes as many as its scene asks for [default: the cores there are]
     #[arg(long, value_name = "N", value_parser = positive)]
     pub jobs: Option<usize>,
     /// At most N of the points that are due

@@ -24,7 +24,7 @@ impl Rate {
         measured_on: 0,
     };
 
-    /// From pairs of work [particle-steps] and wall time [s]; pairs without either are left out.
+    /// From pairs of work [particle-steps] and time on one core [s]; pairs without either are left out.
     pub fn measured(pairs: impl Iterator<Item = (f64, f64)>) -> Rate {
         let pairs = pairs.filter(|(work, wall)| *work > 0.0 && *wall > 0.0);
         let (work, wall, runs) = pairs.fold((0.0, 0.0, 0), |(work, wall, runs), pair| {
@@ -48,28 +48,37 @@ impl Rate {
         Rate::measured(runs.iter().filter_map(|run| pair(points, run)))
     }
 
-    /// Time of one point on one core.
+    /// Time of one point on the cores it takes.
     pub fn time(&self, work: &Work) -> Duration {
         match work {
-            Work::Simulation(scene) => seconds(kynch_sim::scene::describe(scene).work / self.speed),
+            Work::Simulation(scene) => {
+                let speed = self.speed * work.threads() as f64;
+                seconds(kynch_sim::scene::describe(scene).work / speed)
+            }
             Work::Rehearsal(rehearsal) => seconds(rehearsal.delay),
         }
     }
 }
 
-/// Work and wall time of a run that has the settings of some point.
+/// Work and time on one core of a run that has the settings of some point.
 fn pair(points: &[&Point], run: &Run) -> Option<(f64, f64)> {
     let point = points.iter().find(|point| point.settings == run.settings)?;
     match &point.work {
-        Work::Simulation(scene) => Some((kynch_sim::scene::describe(scene).work, run.timing.wall)),
+        Work::Simulation(scene) => {
+            let core_time = run.timing.wall * point.work.threads() as f64;
+            Some((kynch_sim::scene::describe(scene).work, core_time))
+        }
         Work::Rehearsal(_) => None,
     }
 }
 
-/// Time of several points on some workers: no less than the longest one takes.
-pub fn together(times: &[Duration], workers: usize) -> Duration {
-    let shared: Duration = times.iter().sum::<Duration>() / workers.max(1) as u32;
-    times.iter().max().copied().unwrap_or_default().max(shared)
+/// Time of several points, each with its threads, on some workers: no less than the longest one takes.
+pub fn together(times: &[(Duration, usize)], workers: usize) -> Duration {
+    let workers = workers.max(1);
+    let busy = |(time, threads): &(Duration, usize)| *time * (*threads).min(workers) as u32;
+    let shared: Duration = times.iter().map(busy).sum::<Duration>() / workers as u32;
+    let longest = times.iter().map(|(time, _)| *time).max();
+    longest.unwrap_or_default().max(shared)
 }
 
 fn seconds(seconds: f64) -> Duration {
@@ -95,9 +104,11 @@ mod tests {
 
     #[test]
     fn workers_share_but_the_longest_point_stays_whole() {
-        let times = [4, 1, 1].map(Duration::from_secs);
+        let times = [4, 1, 1].map(|time| (Duration::from_secs(time), 1));
         assert_eq!(together(&times, 1).as_secs(), 6);
         assert_eq!(together(&times, 2).as_secs(), 4);
+        let wide = [(Duration::from_secs(4), 2), (Duration::from_secs(2), 1)];
+        assert_eq!(together(&wide, 2).as_secs(), 5);
         assert_eq!(together(&[], 2).as_secs(), 0);
     }
 }

@@ -51,6 +51,7 @@ fn rehearsal(error: f64, delay: f64) -> Rehearsal {
         scale: 1.0,
         order: 2.0,
         error,
+        grains: 0,
         delay,
         ending: RehearsalEnding::Completes,
     }

@@ -85,7 +85,7 @@ fn totals(planned: &[Planned], rate: Rate, workers: usize) -> String {
     if due.is_empty() {
         return text;
     }
-    let times: Vec<Duration> = due.iter().map(|work| rate.time(work)).collect();
+    let times: Vec<(Duration, usize)> = due.iter().map(|work| (rate.time(work), work.threads())).collect();
     let work: f64 = due.iter().map(|work| particle_steps(work)).sum();
     let together = time(together(&times, workers));
     let _ = writeln!(

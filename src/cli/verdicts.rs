@@ -92,6 +92,7 @@ mod tests {
             unit: "m/s".into(),
             expected: Some(1.0),
             computed: Some(1.01),
+            half_width: None,
             error: Some(0.01),
             band: "< 0.02".into(),
             verdict: outcome,

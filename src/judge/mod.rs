@@ -6,16 +6,19 @@ pub mod exit;
 mod interpolation;
 pub mod model;
 pub mod pareto;
+mod phrase;
 pub mod point_error;
 pub mod select;
+pub mod statistics;
 #[cfg(test)]
 mod tests;
 pub mod words;
 
 use crate::store::model::Run;
-use crate::study::model::{Check, Expectation, Norm, Selection, Study};
+use crate::study::model::{Check, Expectation, Selection, Study};
 use check::Finding;
 use model::{Outcome, Verdict};
+use phrase::Phrase;
 
 /// Judges every expectation of the study on its completed runs.
 pub fn judge(study: &Study, runs: &[Run]) -> Vec<Verdict> {
@@ -51,12 +54,30 @@ fn verdict(study: &Study, runs: &[Run], expectation: &Expectation) -> Verdict {
             };
             check::order::check(&chains, of, against, over, &expected)
         }
-        Check::Monotone { of, over, rising } => {
+        Check::Monotone {
+            of,
+            over,
+            rising,
+            within_noise,
+        } => {
             let chains = select::chains(study, runs, &groups, over);
-            check::monotone::check(&chains, of, over, *rising)
+            check::monotone::check(&chains, of, over, &trend(*rising, *within_noise))
+        }
+        Check::Compare(comparison) => {
+            let pairs = select::pairs(study, runs, &groups, &comparison.between);
+            check::compare::check(&pairs, comparison)
         }
     };
-    let open = select::unanswered(study, runs, &expectation.selection);
+    let open = select::unanswered(study, runs, |run| {
+        select::admits(&expectation.selection, run)
+            && match &expectation.check {
+                Check::Compare(comparison) => comparison
+                    .between
+                    .iter()
+                    .any(|selection| select::admits(selection, run)),
+                _ => true,
+            }
+    });
     let (verdict, reason) = if groups.is_empty() {
         (
             Outcome::NotDecidable,
@@ -73,6 +94,7 @@ fn verdict(study: &Study, runs: &[Run], expectation: &Expectation) -> Verdict {
         unit: finding.unit,
         expected: finding.expected,
         computed: finding.computed,
+        half_width: finding.half_width.filter(|width| *width > 0.0),
         error: finding.error,
         band: phrase.band,
         verdict,
@@ -82,6 +104,10 @@ fn verdict(study: &Study, runs: &[Run], expectation: &Expectation) -> Verdict {
         informative: expectation.informative.clone(),
         points: finding.points,
     }
+}
+
+fn trend(rising: bool, within_noise: bool) -> check::monotone::Trend {
+    check::monotone::Trend { rising, within_noise }
 }
 
 /// A statement about every point cannot hold while points are missing; one failing point is enough to fail.
@@ -116,76 +142,4 @@ fn nothing(selection: &Selection, open: &[String]) -> String {
         open.len(),
         open[0]
     )
-}
-
-/// An expectation in words.
-struct Phrase {
-    statement: String,
-    quantity: String,
-    band: String,
-}
-
-impl Phrase {
-    fn of(check: &Check) -> Phrase {
-        match check {
-            Check::Value { of, band } => {
-                let words = words::band(band);
-                let link = if band.above.is_some() && band.below.is_some() {
-                    " in "
-                } else {
-                    " "
-                };
-                Phrase {
-                    statement: format!("`{of}`{link}{words}"),
-                    quantity: of.clone(),
-                    band: words,
-                }
-            }
-            Check::Error {
-                of,
-                against,
-                below,
-                norm,
-            } => Phrase {
-                statement: format!(
-                    "{} of `{of}` against the reference `{against}` < {}",
-                    match norm {
-                        Norm::Maximum => "relative error",
-                        Norm::RootMeanSquare => "relative root mean square error",
-                    },
-                    words::percent(*below)
-                ),
-                quantity: of.clone(),
-                band: format!("< {}", words::significant(*below, 6)),
-            },
-            Check::Order {
-                of,
-                against,
-                over,
-                is,
-                within,
-            } => {
-                let (order, tolerance) = (words::significant(*is, 6), words::significant(*within, 6));
-                Phrase {
-                    statement: format!(
-                        "order of the error of `{of}` against the reference `{against}` over `{over}` is {order} ± {tolerance}"
-                    ),
-                    quantity: format!("order of {of} over {over}"),
-                    band: format!(
-                        "{} to {}",
-                        words::significant(is - within, 6),
-                        words::significant(is + within, 6)
-                    ),
-                }
-            }
-            Check::Monotone { of, over, rising } => {
-                let direction = if *rising { "rises" } else { "falls" };
-                Phrase {
-                    statement: format!("`{of}` {direction} with `{over}`"),
-                    quantity: of.clone(),
-                    band: if *rising { "rising" } else { "falling" }.to_string(),
-                }
-            }
-        }
-    }
 }

@@ -23,6 +23,8 @@ pub struct Verdict {
     pub expected: Option<f64>,
     /// The value found (of the deciding run: the worst one).
     pub computed: Option<f64>,
+    /// Half width of the 95 % confidence interval of `computed` where it is a mean over seeds.
+    pub half_width: Option<f64>,
     pub error: Option<f64>,
     /// The admitted band, in words: "< 0.02", "0.95 to 1.05".
     pub band: String,
@@ -46,6 +48,8 @@ pub struct PointVerdict {
     pub label: String,
     pub expected: Option<f64>,
     pub computed: Option<f64>,
+    /// Half width of the 95 % confidence interval of `computed` where it is a mean over seeds.
+    pub half_width: Option<f64>,
     pub error: Option<f64>,
     pub holds: Option<bool>,
 }

@@ -2,6 +2,7 @@
 
 use super::interpolation;
 use super::select::Replicates;
+use super::statistics::Sample;
 use crate::reference::{self, Expected, Facts, Points};
 use crate::store::model::{Run, Table};
 use crate::study::{self, model::Norm};
@@ -24,6 +25,10 @@ pub struct PointError {
     pub signed: f64,
     /// Standard error of `signed` over seeds; zero for one seed.
     pub spread: f64,
+    /// Half width of the 95 % confidence interval of `signed` over seeds; zero for one seed.
+    pub half_width: f64,
+    /// The same of `computed`.
+    pub half_width_computed: f64,
     pub unit: String,
     /// Citation of the reference.
     pub source: String,
@@ -33,8 +38,7 @@ pub struct PointError {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mean {
     pub value: f64,
-    /// Standard error of the mean; zero for one seed.
-    pub spread: f64,
+    pub sample: Sample,
     pub unit: String,
 }
 
@@ -139,14 +143,17 @@ pub fn mean_error(
         .iter()
         .map(|run| point_error(run, of, against, norm))
         .collect::<Result<_, _>>()?;
-    let mean_of = |number: fn(&PointError) -> f64| mean(errors.iter().map(number)).0;
-    let (signed, spread) = mean(errors.iter().map(|error| error.signed));
+    let sample = |number: fn(&PointError) -> f64| Sample::of(errors.iter().map(number));
+    let signed = sample(|error| error.signed);
+    let computed = sample(|error| error.computed);
     Ok(PointError {
-        expected: mean_of(|error| error.expected),
-        computed: mean_of(|error| error.computed),
-        error: signed.abs(),
-        signed,
-        spread,
+        expected: sample(|error| error.expected).mean,
+        computed: computed.mean,
+        error: signed.mean.abs(),
+        signed: signed.mean,
+        spread: signed.standard_error(),
+        half_width: signed.half_width(),
+        half_width_computed: computed.half_width(),
         ..errors[0].clone()
     })
 }
@@ -171,8 +178,12 @@ pub fn mean_scalar(replicates: &Replicates, of: &str) -> Result<Mean, Undecided>
         values.push(value);
         unit = its_unit.to_string();
     }
-    let (value, spread) = mean(values.into_iter());
-    Ok(Mean { value, spread, unit })
+    let sample = Sample::of(values);
+    Ok(Mean {
+        value: sample.mean,
+        sample,
+        unit,
+    })
 }
 
 /// Times, values and unit of a time series.
@@ -227,18 +238,9 @@ fn largest(
         error,
         signed,
         spread: 0.0,
+        half_width: 0.0,
+        half_width_computed: 0.0,
         unit: unit.to_string(),
         source,
     })
-}
-
-/// Mean and standard error of the mean.
-fn mean(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
-    let count = values.clone().count() as f64;
-    let mean = values.clone().sum::<f64>() / count;
-    if count < 2.0 {
-        return (mean, 0.0);
-    }
-    let squares: f64 = values.map(|value| (value - mean).powi(2)).sum();
-    (mean, (squares / (count - 1.0) / count).sqrt())
 }

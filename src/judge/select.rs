@@ -42,10 +42,12 @@ pub struct Chain<'a> {
 
 /// The completed runs a selection admits, seeds gathered, in a stable order whatever order they came in.
 pub fn selected<'a>(study: &Study, runs: &'a [Run], selection: &Selection) -> Vec<Replicates<'a>> {
-    let mut chosen: Vec<&Run> = runs
-        .iter()
-        .filter(|run| run.status == Status::Completed && admits(selection, run))
-        .collect();
+    let meant = |run: &&Run| run.status == Status::Completed && admits(selection, run);
+    gathered(study, runs.iter().filter(meant).collect())
+}
+
+/// Runs with their seeds gathered, in a stable order whatever order they came in.
+pub fn gathered<'a>(study: &Study, mut chosen: Vec<&'a Run>) -> Vec<Replicates<'a>> {
     chosen.sort_by(|a, b| order(study, a, b));
     chosen.dedup_by(|a, b| a.id == b.id);
     let mut groups: Vec<Replicates> = Vec::new();
@@ -58,14 +60,14 @@ pub fn selected<'a>(study: &Study, runs: &'a [Run], selection: &Selection) -> Ve
     groups
 }
 
-/// Labels of the planned or attempted points that a selection admits and that have no completed run.
-pub fn unanswered(study: &Study, runs: &[Run], selection: &Selection) -> Vec<String> {
-    let completed = selected(study, runs, selection);
+/// Labels of the planned or attempted points that are meant and that have no completed run.
+pub fn unanswered(study: &Study, runs: &[Run], meant: impl Fn(&Run) -> bool) -> Vec<String> {
+    let completed = selected(study, runs, &Selection::default());
     let planned: Vec<Run> = study.plan.points.iter().map(sketch).collect();
     let mut open: Vec<&Run> = planned
         .iter()
         .chain(runs)
-        .filter(|run| admits(selection, run))
+        .filter(|run| meant(run))
         .filter(|run| !completed.iter().any(|group| same_setting(group.first(), run)))
         .collect();
     open.sort_by(|a, b| order(study, a, b));
@@ -109,6 +111,73 @@ pub fn chains<'a>(study: &Study, runs: &[Run], groups: &[Replicates<'a>], over: 
             chain
         })
         .collect()
+}
+
+/// Replicates of a first selection beside those of a second that differ in nothing else.
+///
+/// What the selections name may differ, and what moves along with it: axes that they determine, or that
+/// have one value in each of them.
+pub fn pairs<'a>(
+    study: &Study,
+    runs: &[Run],
+    groups: &[Replicates<'a>],
+    between: &[Selection; 2],
+) -> Vec<[Replicates<'a>; 2]> {
+    let side = |place: usize| -> Vec<&Replicates<'a>> {
+        let mine = |group: &&Replicates| admits(&between[place], group.first());
+        groups.iter().filter(mine).collect()
+    };
+    let sides = [side(0), side(1)];
+    let named = |name: &str| {
+        between
+            .iter()
+            .flat_map(|one| &one.axes)
+            .any(|(axis, _)| axis == name)
+    };
+    let across_scenes = between.iter().any(|one| !one.scenes.is_empty());
+    let key = |run: &Run| {
+        let along: Vec<String> = between
+            .iter()
+            .flat_map(|one| &one.axes)
+            .flat_map(|(name, _)| carried(study, runs, &run.scene, name))
+            .collect();
+        let mut fixed = run.axes.clone();
+        fixed.retain(|(axis, _)| {
+            let alone = sides.iter().all(|side| single(side, axis));
+            !named(axis) && !along.contains(axis) && !alone
+        });
+        (
+            if across_scenes {
+                String::new()
+            } else {
+                run.scene.clone()
+            },
+            fixed,
+        )
+    };
+    let mut pairs = Vec::new();
+    for first in &sides[0] {
+        let (scene, fixed) = key(first.first());
+        for second in &sides[1] {
+            let (other, others) = key(second.first());
+            let itself = same_setting(first.first(), second.first());
+            if scene == other && same_axes(&fixed, &others) && !itself {
+                pairs.push([(*first).clone(), (*second).clone()]);
+            }
+        }
+    }
+    pairs
+}
+
+/// Whether an axis has one value, or none, among these.
+fn single(groups: &[&Replicates], axis: &str) -> bool {
+    let value = |group: &&Replicates| group.first().axis(axis).cloned();
+    let mut values = groups.iter().map(value);
+    let first = values.next().flatten();
+    values.all(|value| match (&first, &value) {
+        (Some(first), Some(value)) => same(first, value),
+        (first, value) => first.is_none() && value.is_none(),
+    })
 }
 
 /// Whether a selection admits a run.

@@ -4,7 +4,9 @@ use super::exit::exit_code;
 use super::point_error::point_error;
 use super::*;
 use crate::store::model::{Column, PointId, Scalar, Status, Table, Timing};
-use crate::study::model::{Axis, AxisValue, Band, Norm, Plan, Point, Rehearsal, RehearsalEnding, Work};
+use crate::study::model::{
+    Axis, AxisValue, Band, Comparison, Norm, Plan, Point, Rehearsal, RehearsalEnding, Relation, Work,
+};
 use proptest::prelude::*;
 use serde_json::json;
 
@@ -101,6 +103,7 @@ fn planned(run: &Run) -> Point {
             scale: 1.0,
             order: 2.0,
             error: 0.0,
+            grains: 0,
             delay: 0.0,
             ending: RehearsalEnding::Completes,
         }),
@@ -139,6 +142,7 @@ fn monotone(rising: bool) -> Check {
         of: "limit".to_string(),
         over: "scale".to_string(),
         rising,
+        within_noise: false,
     }
 }
 
@@ -346,35 +350,231 @@ fn missing_observables_and_wrong_references_are_reported() {
     assert_eq!(one(limit_below(0.1), &broken).verdict, Outcome::NotDecidable);
 }
 
-#[test]
-fn noise_over_seeds_that_straddles_the_limit_decides_nothing() {
-    let base = rehearse("a", 1.0, 0.0);
-    let runs: Vec<Run> = [2.01, 2.03, 2.02]
+/// One point with a run per limit.
+fn scattered(scene: &str, scale: f64, limits: &[f64]) -> Vec<Run> {
+    let base = rehearse(scene, scale, 0.0);
+    limits
         .iter()
         .zip(1..)
         .map(|(&limit, seed)| seeded(&base, seed, limit))
-        .collect();
+        .collect()
+}
+
+#[test]
+fn noise_over_seeds_that_straddles_the_limit_decides_nothing() {
+    // Mean 2.02, standard error 0.00577: the 95 % interval is ± 0.0248, relative ± 0.0124.
+    let runs = scattered("a", 1.0, &[2.01, 2.03, 2.02]);
     let outcome = |below| one(limit_below(below), &runs);
     assert_eq!(outcome(0.011).verdict, Outcome::NotDecidable);
-    assert_eq!(outcome(0.005).verdict, Outcome::Fails);
-    let holds = outcome(0.02);
+    assert_eq!(outcome(0.02).verdict, Outcome::NotDecidable);
+    let certain = scattered("a", 1.0, &[2.0201, 2.0203, 2.0202]);
+    assert_eq!(one(limit_below(0.005), &certain).verdict, Outcome::Fails);
+    let holds = outcome(0.025);
     assert_eq!(holds.verdict, Outcome::Holds);
     assert_eq!(holds.points.len(), 1);
     assert!((holds.computed.unwrap() - 2.02).abs() < 1e-12);
+    assert!((holds.half_width.unwrap() - 0.0248).abs() < 1e-4);
+    assert_eq!(holds.points[0].half_width, holds.half_width);
     assert!(holds.points[0].label.ends_with("seeds=1,2,3"));
-    assert!(reason(&holds).contains("standard error"));
-    let band = Band {
-        above: None,
-        below: Some(2.022),
+    assert!(reason(&holds).contains("95 % confidence"));
+}
+
+#[test]
+fn a_value_is_judged_by_its_mean_and_the_interval_around_it() {
+    let runs = scattered("a", 1.0, &[2.01, 2.03, 2.02]);
+    let value = |above, below| {
+        let of = "limit".to_string();
+        let band = Band { above, below };
+        one(Check::Value { of, band }, &runs)
     };
-    let value = one(
-        Check::Value {
-            of: "limit".to_string(),
-            band,
-        },
-        &runs,
+    // Each single run beyond the bound, or not: the mean counts.
+    assert_eq!(value(None, Some(2.05)).verdict, Outcome::Holds);
+    assert_eq!(value(None, Some(2.04)).verdict, Outcome::NotDecidable);
+    assert_eq!(value(None, Some(2.0)).verdict, Outcome::NotDecidable);
+    assert_eq!(value(None, Some(1.99)).verdict, Outcome::Fails);
+    assert_eq!(value(Some(1.9), Some(2.1)).verdict, Outcome::Holds);
+    let open = value(Some(2.0), Some(2.1));
+    assert_eq!(open.verdict, Outcome::NotDecidable);
+    assert!(reason(&open).contains("2.02 ± 0.0248"), "{}", reason(&open));
+    assert_eq!(
+        (exit_code(&[open.clone()], false), exit_code(&[open], true)),
+        (0, 1)
     );
-    assert_eq!(value.verdict, Outcome::NotDecidable);
+}
+
+#[test]
+fn a_trend_may_stand_still_within_the_noise_of_its_seeds() {
+    let trend = |limits: &[[f64; 3]], within_noise| {
+        let runs: Vec<Run> = limits
+            .iter()
+            .zip([1.0, 2.0, 4.0, 8.0, 16.0])
+            .flat_map(|(limits, scale)| scattered("a", scale, limits))
+            .collect();
+        let check = Check::Monotone {
+            of: "limit".to_string(),
+            over: "scale".to_string(),
+            rising: true,
+            within_noise,
+        };
+        one(check, &runs)
+    };
+    // A step down by a standard error of the difference.
+    let flat = [[1.0, 1.1, 1.2], [0.95, 1.05, 1.1], [2.0, 2.1, 2.2]];
+    assert_eq!(trend(&flat, true).verdict, Outcome::Holds);
+    assert_eq!(trend(&flat, false).verdict, Outcome::NotDecidable);
+    assert!(reason(&trend(&flat, false)).contains("within_noise"));
+    let down = [[1.0, 1.1, 1.2], [0.5, 0.6, 0.7], [2.0, 2.1, 2.2]];
+    for within_noise in [true, false] {
+        let verdict = trend(&down, within_noise);
+        assert_eq!(verdict.verdict, Outcome::Fails);
+        assert!(reason(&verdict).contains("scale=2"), "{}", reason(&verdict));
+    }
+    // Steps that each pass for noise, but lead down all the same.
+    let sliding = [1.0, 0.88, 0.76, 0.64, 0.52].map(|mean| [mean - 0.1, mean, mean + 0.1]);
+    let verdict = trend(&sliding, true);
+    assert_eq!(verdict.verdict, Outcome::Fails);
+    assert!(reason(&verdict).contains("end to end"));
+    // One seed has no noise to stand still within.
+    let alone = Check::Monotone {
+        of: "limit".to_string(),
+        over: "scale".to_string(),
+        rising: false,
+        within_noise: true,
+    };
+    assert_eq!(one(alone, &ladder(0.001)).verdict, Outcome::Fails);
+}
+
+fn side(name: &str, value: f64) -> Selection {
+    Selection {
+        scenes: Vec::new(),
+        axes: vec![(name.to_string(), vec![AxisValue::Number(value)])],
+    }
+}
+
+fn compare(between: [f64; 2], is: Relation, margin: f64, within_noise: bool) -> Check {
+    Check::Compare(Comparison {
+        of: "limit".to_string(),
+        between: between.map(|scale| side("scale", scale)),
+        is,
+        margin,
+        within_noise,
+    })
+}
+
+#[test]
+fn two_selections_are_compared_pair_by_pair() {
+    // Limits 2.002 and 2.032 in one scene; the other way round in the other.
+    let mut runs: Vec<Run> = ladder(0.001);
+    let verdict = |runs: &[Run], is, margin| one(compare([4.0, 1.0], is, margin, false), runs);
+    let holds = verdict(&runs, Relation::Greater, 0.0);
+    assert_eq!(holds.verdict, Outcome::Holds);
+    assert_eq!(holds.computed, Some(LIMIT * 1.016));
+    assert_eq!(holds.expected, Some(LIMIT * 1.001));
+    assert_eq!(holds.points[0].label, "scene=a scale=4 beside scene=a scale=1");
+    assert_eq!(holds.statement, "`limit` at scale=4 is greater than at scale=1");
+    assert_eq!(verdict(&runs, Relation::Greater, 0.01).verdict, Outcome::Holds);
+    let short = verdict(&runs, Relation::Greater, 0.02);
+    assert_eq!(short.verdict, Outcome::Fails);
+    assert!(
+        reason(&short).contains("1.5 % more, not greater by 2 %"),
+        "{}",
+        reason(&short)
+    );
+    assert_eq!(verdict(&runs, Relation::Less, 0.0).verdict, Outcome::Fails);
+    assert_eq!(verdict(&runs, Relation::Equal, 0.02).verdict, Outcome::Holds);
+    assert_eq!(verdict(&runs, Relation::Equal, 0.01).verdict, Outcome::Fails);
+    runs.extend([1.0, 2.0, 4.0].map(|scale| rehearse("b", scale, -0.001)));
+    let mixed = verdict(&runs, Relation::Greater, 0.0);
+    assert_eq!((mixed.verdict, mixed.points.len()), (Outcome::Fails, 2));
+    assert!(reason(&mixed).contains("scene=b"));
+}
+
+#[test]
+fn axes_that_move_along_do_not_part_a_pair_and_free_ones_do() {
+    let with = |run: &Run, name: &str, value: f64| {
+        let mut run = run.clone();
+        run.id = PointId(format!("{}-{name}-{value}", run.id.0));
+        run.axes.push((name.to_string(), AxisValue::Number(value)));
+        run
+    };
+    let along: Vec<Run> = ladder(0.001)
+        .iter()
+        .zip([4.5, 4.0, 4.2])
+        .map(|(run, width)| with(run, "width", width))
+        .collect();
+    let check = || compare([4.0, 1.0], Relation::Greater, 0.0, false);
+    assert_eq!(one(check(), &along).points.len(), 1);
+    let free: Vec<Run> = [1.0, 2.0]
+        .iter()
+        .flat_map(|depth| {
+            ladder(0.001)
+                .iter()
+                .map(|run| with(run, "depth", *depth))
+                .collect::<Vec<_>>()
+        })
+        .collect();
+    assert_eq!(one(check(), &free).points.len(), 2);
+}
+
+#[test]
+fn a_comparison_over_seeds_knows_its_noise() {
+    let both = |first: &[f64], second: &[f64]| {
+        let mut runs = scattered("a", 1.0, first);
+        runs.extend(scattered("a", 2.0, second));
+        runs
+    };
+    let verdict = |runs: &[Run], is, margin, noise| one(compare([1.0, 2.0], is, margin, noise), runs);
+    let near = both(&[1.0, 1.1, 1.2], &[1.05, 1.15, 1.25]);
+    assert_eq!(verdict(&near, Relation::Equal, 0.0, true).verdict, Outcome::Holds);
+    assert_eq!(
+        verdict(&near, Relation::Less, 0.0, false).verdict,
+        Outcome::NotDecidable
+    );
+    assert_eq!(
+        verdict(&near, Relation::Equal, 0.05, false).verdict,
+        Outcome::NotDecidable
+    );
+    assert_eq!(
+        verdict(&near, Relation::Equal, 0.5, false).verdict,
+        Outcome::Holds
+    );
+    let far = both(&[1.0, 1.1, 1.2], &[2.0, 2.1, 2.2]);
+    assert_eq!(verdict(&far, Relation::Equal, 0.0, true).verdict, Outcome::Fails);
+    assert_eq!(verdict(&far, Relation::Less, 0.1, false).verdict, Outcome::Holds);
+    assert_eq!(
+        verdict(&far, Relation::Equal, 0.05, false).verdict,
+        Outcome::Fails
+    );
+    // A single seed says nothing of noise.
+    let alone = verdict(&both(&[1.0], &[1.0]), Relation::Equal, 0.0, true);
+    assert_eq!(alone.verdict, Outcome::NotDecidable);
+    assert!(reason(&alone).contains("two seeds"));
+}
+
+#[test]
+fn a_comparison_without_partners_or_with_missing_runs_stays_open() {
+    let runs = ladder(0.001);
+    let check = || compare([4.0, 9.0], Relation::Greater, 0.0, false);
+    let nobody = one(check(), &runs);
+    assert_eq!(nobody.verdict, Outcome::NotDecidable);
+    assert!(reason(&nobody).contains("partner"));
+    let mut study = study(vec![expectation(compare(
+        [4.0, 1.0],
+        Relation::Greater,
+        0.0,
+        false,
+    ))]);
+    study.plan.points = runs.iter().map(planned).collect();
+    // A missing run of neither side does not matter, one of a side does.
+    let without = |scale: f64| -> Vec<Run> {
+        let keep = |run: &&Run| run.axes[0].1 != AxisValue::Number(scale);
+        runs.iter().filter(keep).cloned().collect()
+    };
+    assert_eq!(judge(&study, &without(2.0))[0].verdict, Outcome::Holds);
+    assert_eq!(judge(&study, &without(4.0))[0].verdict, Outcome::NotDecidable);
+    let zero = [rehearse("a", 4.0, 0.0), seeded(&rehearse("a", 1.0, 0.0), 1, 0.0)];
+    let of_zero = one(compare([4.0, 1.0], Relation::Equal, 0.1, false), &zero);
+    assert_eq!(of_zero.verdict, Outcome::NotDecidable);
 }
 
 #[test]

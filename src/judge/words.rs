@@ -1,6 +1,6 @@
 //! Numbers and bands in words.
 
-use crate::study::model::{AxisValue, Band};
+use crate::study::model::{AxisValue, Band, Comparison, Relation, Selection};
 
 /// A number with at most so many significant digits, trailing zeros dropped.
 pub fn significant(value: f64, digits: usize) -> String {
@@ -30,6 +30,34 @@ pub fn band(band: &Band) -> String {
         (None, Some(below)) => format!("< {}", edge(below)),
         (None, None) => "any".to_string(),
     }
+}
+
+/// `greater by 5 %`, `equal within 5 % and noise`.
+pub fn relation(comparison: &Comparison) -> String {
+    let margin = (comparison.margin > 0.0).then(|| percent(comparison.margin));
+    let noise = comparison
+        .within_noise
+        .then(|| "the noise of the seeds".to_string());
+    let allowed: Vec<String> = margin.into_iter().chain(noise).collect();
+    let (relation, link) = match comparison.is {
+        Relation::Greater => ("greater", "by"),
+        Relation::Less => ("less", "by"),
+        Relation::Equal => ("equal", "within"),
+    };
+    match allowed.is_empty() {
+        true => relation.to_string(),
+        false => format!("{relation} {link} {}", allowed.join(" and ")),
+    }
+}
+
+/// `viscosity=0.001`, several values separated by commas.
+pub fn selection(selection: &Selection) -> String {
+    let scenes = (!selection.scenes.is_empty()).then(|| format!("scene={}", selection.scenes.join(",")));
+    let axes = selection.axes.iter().map(|(name, values)| {
+        let values: Vec<String> = values.iter().map(axis_value).collect();
+        format!("{name}={}", values.join(","))
+    });
+    scenes.into_iter().chain(axes).collect::<Vec<_>>().join(" ")
 }
 
 /// An edge of a band, with the minus sign of text; exponents keep the one that numbers are parsed with.

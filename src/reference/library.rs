@@ -83,6 +83,23 @@ impl Library {
         CARRIED.as_ref().map_err(Clone::clone)
     }
 
+    /// Opens the folder `references` that lies nearest above a path: that of the studies which use it.
+    ///
+    /// # Errors
+    /// No such folder, or one without a sound index.
+    pub fn above(path: &Path) -> Result<Library, ReferenceError> {
+        let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+        let folders = whole.ancestors().skip(1).map(|folder| folder.join("references"));
+        let mut indexed = folders.filter(|folder| folder.join("references.yaml").is_file());
+        match indexed.next() {
+            Some(folder) => Library::open(&folder),
+            None => Err(ReferenceError(format!(
+                "there is no folder `references` with a `references.yaml` above {}",
+                path.display()
+            ))),
+        }
+    }
+
     /// Every data set of the index.
     pub fn datasets(&self) -> &[DataSetEntry] {
         &self.index.datasets
@@ -202,6 +219,42 @@ impl DataSet {
                 ))
             })?;
         Ok(self.rows.iter().map(|row| row[index].as_str()).collect())
+    }
+
+    /// Two columns as pairs of numbers, of the rows that hold these texts; rows with an empty cell are left out.
+    ///
+    /// # Errors
+    /// An unknown column, a cell that is no number, or no row at all.
+    pub fn pairs(
+        &self,
+        (x, y): (&str, &str),
+        rows: &[(String, String)],
+    ) -> Result<Vec<(f64, f64)>, ReferenceError> {
+        let mut wanted = vec![true; self.len()];
+        for (column, text) in rows {
+            for (wanted, cell) in wanted.iter_mut().zip(self.texts(column)?) {
+                *wanted &= cell == text;
+            }
+        }
+        let number = |column: &str, text: &str| {
+            text.parse::<f64>().map_err(|_| {
+                ReferenceError(format!(
+                    "{}: `{text}` in column `{column}` is no number",
+                    self.name
+                ))
+            })
+        };
+        let cells = self.texts(x)?.into_iter().zip(self.texts(y)?);
+        let mut pairs = Vec::new();
+        for ((across, up), _) in cells.zip(wanted).filter(|(_, wanted)| *wanted) {
+            if !across.is_empty() && !up.is_empty() {
+                pairs.push((number(x, across)?, number(y, up)?));
+            }
+        }
+        match pairs.is_empty() {
+            true => Err(ReferenceError(format!("{}: no row fits", self.name))),
+            false => Ok(pairs),
+        }
     }
 
     /// A column as numbers.
@@ -343,6 +396,28 @@ pub(super) mod tests {
         let table = DataSet::parse("x", "a,b\r\n\"1,5\",\"say \"\"so\"\"\nthen\"\n\n2,\n").unwrap();
         assert_eq!(table.texts("a").unwrap(), ["1,5", "2"]);
         assert_eq!(table.texts("b").unwrap(), ["say \"so\"\nthen", ""]);
+    }
+
+    #[test]
+    fn pairs_come_from_the_rows_that_fit() {
+        let table = DataSet::parse(
+            "x.csv",
+            "case,a,b\nfirst,1,2\nsecond,3,4\nsecond,,6\nsecond,7,wide\n",
+        )
+        .unwrap();
+        let rows = |case: &str| vec![("case".to_string(), case.to_string())];
+        assert_eq!(table.pairs(("a", "b"), &rows("first")).unwrap(), [(1.0, 2.0)]);
+        let message = |rows: &[(String, String)], y| table.pairs(("a", y), rows).unwrap_err().0;
+        assert!(message(&rows("second"), "b").contains("`wide` in column `b`"));
+        assert!(message(&rows("third"), "b").contains("no row"));
+        assert!(message(&[], "c").contains("case, a, b"));
+    }
+
+    #[test]
+    fn the_folder_is_found_above_a_study() {
+        let study = folder().parent().unwrap().join("studies/deep/one.yaml");
+        assert!(Library::above(&study).is_ok());
+        assert!(Library::above(Path::new("/nowhere/one.yaml")).is_err());
     }
 
     #[test]

@@ -16,6 +16,15 @@ enum Mark {
     Polygon(Vec<Position>, Colour, f64),
     Circle(Position, i32, Colour, f64),
     Text(Text),
+    /// Many discs with one thin outline, the first at the back.
+    Discs(Vec<Disc>),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Disc {
+    pub at: Position,
+    pub radius: i32,
+    pub colour: Colour,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -44,6 +53,11 @@ impl Canvas {
         self.path(&[from, to], stroke);
     }
 
+    /// Thousands of discs: written as short as SVG allows.
+    pub fn discs(&mut self, discs: Vec<Disc>) {
+        self.marks.push(Mark::Discs(discs));
+    }
+
     pub fn text(&mut self, text: Text) {
         self.marks.push(Mark::Text(text));
     }
@@ -56,6 +70,14 @@ impl Canvas {
     pub fn open_marker(&mut self, marker: Marker, at: Position, colour: Colour) {
         self.marker_of(marker, at, theme::MARKER * 11 / 10, colour, 1.0);
         self.marker_of(marker, at, theme::MARKER * 6 / 10, theme::PAPER, 1.0);
+    }
+
+    /// A filled outline without a border.
+    pub fn area(&mut self, corners: Vec<Position>, colour: Colour, opacity: f64) {
+        let corners = thinned(&corners);
+        if corners.len() > 2 {
+            self.marks.push(Mark::Polygon(corners, colour, opacity));
+        }
     }
 
     /// Hides what lies below an area.
@@ -142,19 +164,15 @@ impl Canvas {
 
     /// The SVG document. `id` is unique in a page; `title` and `description` are read aloud.
     pub fn svg(&self, height: i32, id: &str, title: &str, description: &str) -> Result<String, ReportError> {
-        let mut drawn = String::new();
-        {
-            let size = (theme::WIDTH as u32, height as u32);
-            let area = SVGBackend::with_string(&mut drawn, size).into_drawing_area();
-            for mark in &self.marks {
-                draw(&area, mark)
-                    .map_err(|error| ReportError(format!("figure `{id}` cannot be drawn: {error}")))?;
-            }
-            area.present()
-                .map_err(|error| ReportError(format!("figure `{id}` cannot be drawn: {error}")))?;
+        let mut body = String::new();
+        let is_discs = |mark: &Mark| matches!(mark, Mark::Discs(_));
+        for marks in self.marks.chunk_by(|one, next| !is_discs(one) && !is_discs(next)) {
+            body += &match marks {
+                [Mark::Discs(discs)] => written(discs),
+                marks => drawn(marks, height)
+                    .map_err(|error| ReportError(format!("figure `{id}` cannot be drawn: {error}")))?,
+            };
         }
-        let body = drawn.split_once('\n').map_or("", |(_, body)| body);
-        let body = body.replace("\n</text>", "</text>").replace(" \"/>", "\"/>");
         let (width_mm, height_mm) = (f64::from(theme::WIDTH) / 100.0, f64::from(height) / 100.0);
         let (title, description) = (escaped(title), escaped(description));
         Ok(format!(
@@ -162,7 +180,7 @@ impl Canvas {
              height=\"{height_mm}mm\" viewBox=\"0 0 {} {height}\" role=\"img\" \
              aria-labelledby=\"{id}-title {id}-description\" stroke-linejoin=\"round\">\n\
              <title id=\"{id}-title\">{title}</title>\n<desc id=\"{id}-description\">{description}</desc>\n\
-             <style>{}</style>\n{body}",
+             <style>{}</style>\n{body}</svg>\n",
             theme::WIDTH,
             theme::style_sheet(),
         ))
@@ -171,6 +189,40 @@ impl Canvas {
 
 type Paper<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
 type Drawn = Result<(), Box<dyn std::error::Error>>;
+
+/// Marks as SVG elements, by plotters.
+fn drawn(marks: &[Mark], height: i32) -> Result<String, Box<dyn std::error::Error>> {
+    let mut document = String::new();
+    {
+        let size = (theme::WIDTH as u32, height as u32);
+        let area = SVGBackend::with_string(&mut document, size).into_drawing_area();
+        for mark in marks {
+            draw(&area, mark)?;
+        }
+        area.present()?;
+    }
+    // The document around them is written once for all.
+    let body = document.split_once('\n').map_or("", |(_, body)| body);
+    let body = body.trim_end().trim_end_matches("</svg>");
+    Ok(body.replace("\n</text>", "</text>").replace(" \"/>", "\"/>"))
+}
+
+fn written(discs: &[Disc]) -> String {
+    let mut body = format!(
+        "<g stroke=\"{}\" stroke-width=\"{}\">\n",
+        theme::hex(theme::INK),
+        theme::OUTLINE_STROKE
+    );
+    for Disc { at, radius, colour } in discs {
+        let fill = theme::hex(*colour);
+        let (x, y) = at;
+        body.push_str(&format!(
+            "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" fill=\"{fill}\"/>\n"
+        ));
+    }
+    body.push_str("</g>\n");
+    body
+}
 
 fn draw(area: &Paper, mark: &Mark) -> Drawn {
     let paint = |colour: Colour, opacity: f64| RGBColor(colour.0, colour.1, colour.2).mix(opacity);
@@ -194,6 +246,8 @@ fn draw(area: &Paper, mark: &Mark) -> Drawn {
         Mark::Circle(at, radius, colour, opacity) => {
             area.draw(&Circle::new(*at, *radius, fill(*colour, *opacity)))
         }
+        // Written without plotters.
+        Mark::Discs(_) => Ok(()),
         Mark::Text(text) => area.draw(&plotters::element::Text::new(
             text.words.clone(),
             text.at,

@@ -35,7 +35,7 @@ impl Unit {
 }
 
 /// Units that take a prefix on their first letter. A kilogram has one already.
-const PREFIXED: [&str; 9] = ["m", "s", "m/s", "m/s2", "N", "Pa", "J", "W", "N/m"];
+const PREFIXED: [&str; 10] = ["m", "s", "m/s", "m/s2", "N", "Pa", "Pa s", "J", "W", "N/m"];
 const PREFIXES: [(f64, &str); 7] = [
     (1e6, "M"),
     (1e3, "k"),
@@ -96,6 +96,32 @@ pub fn quantity(value: f64, unit: &str) -> String {
     format!("{} {}", four_digits(value * unit.factor), unit.label)
         .trim_end()
         .to_owned()
+}
+
+/// A mean over seeds with the half width of its confidence interval: `4.870 ± 0.012 mm/s`.
+pub fn measured(value: f64, half_width: Option<f64>, unit: &str) -> String {
+    let Some(half_width) = half_width.filter(|width| width.is_finite()) else {
+        return quantity(value, unit);
+    };
+    let unit = readable(unit, value);
+    format!(
+        "{} {}",
+        plus_minus(value * unit.factor, half_width * unit.factor),
+        unit.label
+    )
+    .trim_end()
+    .to_owned()
+}
+
+/// `4.870 ± 0.012`
+pub fn plus_minus(value: f64, half_width: f64) -> String {
+    format!("{} ± {}", four_digits(value), two_digits(half_width))
+}
+
+/// Two significant digits: uncertainties.
+fn two_digits(value: f64) -> String {
+    let rounded: f64 = format!("{value:.1e}").parse().unwrap_or(value);
+    number(rounded)
 }
 
 /// A quantity as the title of an axis.

@@ -272,14 +272,7 @@ impl Panel {
         description: &str,
     ) -> Result<Drawing, ReportError> {
         let height = self.legend(legend) + theme::BORDER;
-        let svg = self.canvas.svg(height, id, title, description)?;
-        Ok(Drawing {
-            svg,
-            #[cfg(test)]
-            texts: self.canvas.text_areas(),
-            #[cfg(test)]
-            height,
-        })
+        Drawing::of(&self.canvas, height, id, title, description)
     }
 }
 
@@ -292,4 +285,23 @@ pub struct Drawing {
     pub texts: Vec<(String, Area)>,
     #[cfg(test)]
     pub height: i32,
+}
+
+impl Drawing {
+    /// The SVG document of a canvas.
+    pub fn of(
+        canvas: &Canvas,
+        height: i32,
+        id: &str,
+        title: &str,
+        description: &str,
+    ) -> Result<Drawing, ReportError> {
+        Ok(Drawing {
+            svg: canvas.svg(height, id, title, description)?,
+            #[cfg(test)]
+            texts: canvas.text_areas(),
+            #[cfg(test)]
+            height,
+        })
+    }
 }

@@ -9,6 +9,7 @@ use super::{figure, render_with, theme};
 use crate::judge::model::{Outcome, PointVerdict, Verdict};
 use crate::store::model::{Column, PointId, Provenance, Run, Scalar, Status, Table, Timing};
 use crate::study::model::*;
+use resvg::{tiny_skia, usvg};
 
 const SPACINGS: [f64; 5] = [1.5, 2.0, 3.0, 4.0, 6.0];
 const SCENES: [&str; 3] = ["sphere", "block_dilute", "block_dense"];
@@ -244,6 +245,7 @@ fn verdicts() -> Vec<Verdict> {
         label: label.into(),
         expected: Some(0.00491),
         computed: Some(0.00491 * (1.0 + error)),
+        half_width: None,
         error: Some(error),
         holds: Some(error < 0.02),
     };
@@ -254,6 +256,7 @@ fn verdicts() -> Vec<Verdict> {
         unit: "m/s".into(),
         expected: Some(0.00491),
         computed: Some(0.0051),
+        half_width: None,
         error: Some(0.0387),
         band: "< 0.02".into(),
         verdict: outcome,
@@ -433,6 +436,7 @@ fn missing_points_leave_the_study_incomplete() {
         scale: 1.0,
         order: 1.0,
         error: 0.0,
+        grains: 0,
         delay: 0.0,
         ending: RehearsalEnding::Completes,
     };
@@ -543,7 +547,7 @@ fn a_single_run_makes_every_figure() {
     }
 }
 
-fn assert_texts_inside(plate: &Plate) {
+pub(super) fn assert_texts_inside(plate: &Plate) {
     let paper = Area {
         left: 0,
         top: 0,
@@ -562,15 +566,19 @@ fn assert_texts_inside(plate: &Plate) {
 #[test]
 fn no_text_is_cut_or_covers_another() {
     for plate in plates() {
-        assert_texts_inside(&plate);
-        for (index, (text, area)) in plate.drawing.texts.iter().enumerate() {
-            for (other, covered) in &plate.drawing.texts[..index] {
-                assert!(
-                    !area.meets(covered),
-                    "`{text}` covers `{other}` in figure {}",
-                    plate.id
-                );
-            }
+        assert_readable(&plate);
+    }
+}
+
+pub(super) fn assert_readable(plate: &Plate) {
+    assert_texts_inside(plate);
+    for (index, (text, area)) in plate.drawing.texts.iter().enumerate() {
+        for (other, covered) in &plate.drawing.texts[..index] {
+            assert!(
+                !area.meets(covered),
+                "`{text}` covers `{other}` in figure {}",
+                plate.id
+            );
         }
     }
 }
@@ -578,10 +586,52 @@ fn no_text_is_cut_or_covers_another() {
 /// Every figure as a picture: something is drawn, and the border stays empty.
 #[test]
 fn every_figure_becomes_a_picture() {
-    use resvg::{tiny_skia, usvg};
-    let kept = std::env::var_os("KYNCH_PICTURES").map(std::path::PathBuf::from);
-    let temporary = tempfile::tempdir().unwrap();
-    let folder = kept.unwrap_or_else(|| temporary.path().to_owned());
+    for plate in plates() {
+        assert_pictured(&plate);
+    }
+    if let Some(folder) = pictures() {
+        written(&study(), &with_a_failure(), &verdicts(), &folder);
+    }
+}
+
+/// Where pictures are kept for looking at them.
+pub(super) fn pictures() -> Option<std::path::PathBuf> {
+    std::env::var_os("KYNCH_PICTURES").map(std::path::PathBuf::from)
+}
+
+/// Draws a figure on white; where pictures are kept, on a dark page, too.
+pub(super) fn assert_pictured(plate: &Plate) {
+    let light = pixels(&plate.svg, tiny_skia::Color::WHITE);
+    let (width, height) = (light.width(), light.height());
+    let white = |x: u32, y: u32| {
+        light
+            .pixel(x, y)
+            .is_some_and(|pixel| pixel.red() > 250 && pixel.green() > 250)
+    };
+    let inked = (0..height)
+        .flat_map(|y| (0..width).map(move |x| (x, y)))
+        .filter(|(x, y)| !white(*x, *y))
+        .count();
+    assert!(
+        inked as f64 > 0.01 * f64::from(width * height),
+        "{} is blank",
+        plate.id
+    );
+    let border = (0..height).all(|y| white(0, y) && white(width - 1, y))
+        && (0..width).all(|x| white(x, 0) && white(x, height - 1));
+    assert!(border, "{} is cut at its border", plate.id);
+    if let Some(folder) = pictures() {
+        light.save_png(folder.join(format!("{}.png", plate.id))).unwrap();
+        let dark = pixels(
+            &theme::dark(&plate.svg),
+            tiny_skia::Color::from_rgba8(0x16, 0x16, 0x16, 255),
+        );
+        dark.save_png(folder.join(format!("{}-dark.png", plate.id)))
+            .unwrap();
+    }
+}
+
+fn pixels(svg: &str, ground: tiny_skia::Color) -> tiny_skia::Pixmap {
     let mut options = usvg::Options::default();
     for name in ["DejaVuSans.ttf", "DejaVuSans-Bold.ttf"] {
         if let Ok(font) = std::fs::read(Path::new("/usr/share/fonts/truetype/dejavu").join(name)) {
@@ -589,45 +639,18 @@ fn every_figure_becomes_a_picture() {
         }
     }
     options.fontdb_mut().set_sans_serif_family("DejaVu Sans");
-    for plate in plates() {
-        let tree = usvg::Tree::from_str(&plate.svg, &options).unwrap();
-        let size = tree.size().to_int_size();
-        let scale = 2.5;
-        let (width, height) = (
-            (size.width() as f32 * scale) as u32,
-            (size.height() as f32 * scale) as u32,
-        );
-        let mut picture = tiny_skia::Pixmap::new(width, height).unwrap();
-        picture.fill(tiny_skia::Color::WHITE);
-        resvg::render(
-            &tree,
-            tiny_skia::Transform::from_scale(scale, scale),
-            &mut picture.as_mut(),
-        );
-        let white = |x: u32, y: u32| {
-            picture
-                .pixel(x, y)
-                .is_some_and(|pixel| pixel.red() > 250 && pixel.green() > 250)
-        };
-        let inked = (0..height)
-            .flat_map(|y| (0..width).map(move |x| (x, y)))
-            .filter(|(x, y)| !white(*x, *y))
-            .count();
-        assert!(
-            inked as f64 > 0.01 * f64::from(width * height),
-            "{} is blank",
-            plate.id
-        );
-        let border = (0..height).all(|y| white(0, y) && white(width - 1, y))
-            && (0..width).all(|x| white(x, 0) && white(x, height - 1));
-        assert!(border, "{} is cut at its border", plate.id);
-        picture
-            .save_png(folder.join(format!("{}.png", plate.id)))
-            .unwrap();
-    }
-    if folder != temporary.path() {
-        written(&study(), &with_a_failure(), &verdicts(), &folder);
-    }
+    let tree = usvg::Tree::from_str(svg, &options).unwrap();
+    let size = tree.size().to_int_size();
+    let scale = if pictures().is_some() { 2.5 } else { 0.8 };
+    let (width, height) = (
+        (size.width() as f32 * scale) as u32,
+        (size.height() as f32 * scale) as u32,
+    );
+    let mut picture = tiny_skia::Pixmap::new(width, height).unwrap();
+    picture.fill(ground);
+    let transform = tiny_skia::Transform::from_scale(scale, scale);
+    resvg::render(&tree, transform, &mut picture.as_mut());
+    picture
 }
 
 /// The whole way with the judge's own numbers: a sweep whose error is 3 % · scale² exactly.

@@ -26,10 +26,16 @@ pub const AXIS_STROKE: u32 = 18;
 pub const GRID_STROKE: u32 = 10;
 pub const LINE_STROKE: u32 = 36;
 pub const THIN_STROKE: u32 = 22;
+/// Around grains.
+pub const OUTLINE_STROKE: u32 = 6;
 pub const TICK: i32 = 90;
 pub const MINOR_TICK: i32 = 50;
+/// Bands of scatter: two that cross stay visible.
+pub const BAND_OPACITY: f64 = 0.2;
 /// Half the extent of a marker.
 pub const MARKER: i32 = 95;
+/// Least radius of a grain in a picture.
+pub const GRAIN_RADIUS: i32 = 4;
 /// Half the width of the cap of an uncertainty bar.
 pub const CAP: i32 = 70;
 /// Length of the line sample in a legend.
@@ -149,6 +155,16 @@ pub fn style_sheet() -> String {
         })
         .collect();
     format!(":root{{color-scheme:light dark}}@media (prefers-color-scheme:dark){{{rules}}}")
+}
+
+/// A figure as a dark page shows it, for programs that know no media queries.
+#[cfg(test)]
+pub fn dark(svg: &str) -> String {
+    DARK.iter().fold(svg.to_owned(), |svg, (light, dark)| {
+        let light = hex(*light);
+        let svg = svg.replace(&format!("stroke=\"{light}\""), &format!("stroke=\"{dark}\""));
+        svg.replace(&format!("fill=\"{light}\""), &format!("fill=\"{dark}\""))
+    })
 }
 
 /// Estimated width of a text, a little more than the widest of the usual sans-serif faces needs.

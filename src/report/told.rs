@@ -3,6 +3,7 @@
 
 use super::{format, selection};
 use crate::judge::model::{Outcome, PointVerdict, Verdict};
+use crate::judge::select::label as words;
 use crate::store::model::Run;
 use crate::study::model::Study;
 
@@ -38,19 +39,41 @@ pub fn deciding(verdict: &Verdict) -> Option<&PointVerdict> {
         .find(|point| point.computed == verdict.computed && point.error == verdict.error)
 }
 
-/// `7.26 %, 2.968 mm/s instead of 3.201 mm/s`, or the value alone where there is no reference.
+/// `7.26 %, 2.968 mm/s instead of 3.201 mm/s`, or the value alone where there is no reference; with the
+/// half width of its confidence interval where it is a mean over seeds.
 pub fn found(verdict: &Verdict) -> Option<String> {
-    numbers(verdict.error, verdict.computed, verdict.expected, &verdict.unit)
+    let computed = verdict.computed.map(|value| (value, verdict.half_width));
+    let comparison = verdict.points.iter().any(|point| point.label.contains(BESIDE));
+    numbers(
+        verdict.error,
+        computed,
+        verdict.expected,
+        &verdict.unit,
+        comparison,
+    )
 }
 
 /// The same of one point.
 pub fn found_at(point: &PointVerdict, unit: &str) -> Option<String> {
-    numbers(point.error, point.computed, point.expected, unit)
+    let computed = point.computed.map(|value| (value, point.half_width));
+    let comparison = point.label.contains(BESIDE);
+    numbers(point.error, computed, point.expected, unit, comparison)
 }
 
-fn numbers(error: Option<f64>, computed: Option<f64>, expected: Option<f64>, unit: &str) -> Option<String> {
-    let value = |value: Option<f64>| value.map(|value| format::quantity(value, unit));
-    match (error, value(computed), value(expected)) {
+/// Between the two sides of a comparison.
+const BESIDE: &str = " beside ";
+
+fn numbers(
+    error: Option<f64>,
+    computed: Option<(f64, Option<f64>)>,
+    expected: Option<f64>,
+    unit: &str,
+    comparison: bool,
+) -> Option<String> {
+    let computed = computed.map(|(value, half_width)| format::measured(value, half_width, unit));
+    let expected = expected.map(|value| format::quantity(value, unit));
+    match (error, computed, expected) {
+        (None, Some(computed), Some(expected)) if comparison => Some(format!("{computed} beside {expected}")),
         (Some(error), Some(computed), Some(expected)) => Some(format!(
             "{}, {computed} instead of {expected}",
             format::percent_found(error)
@@ -79,7 +102,8 @@ fn failing(verdict: &Verdict) -> Option<String> {
         .filter(|point| point.holds == Some(false))
         .count();
     let worst = deciding(verdict).filter(|point| point.holds == Some(false))?;
-    if verdict.verdict != Outcome::Fails {
+    // The reason of a comparison says by how much the two sides differ.
+    if verdict.verdict != Outcome::Fails || worst.label.contains(BESIDE) {
         return None;
     }
     let found = found(verdict)?;
@@ -94,9 +118,21 @@ fn failing(verdict: &Verdict) -> Option<String> {
 }
 
 fn name(study: &Study, runs: &[Run], point: &PointVerdict) -> Option<String> {
+    if let Some((first, second)) = point.label.split_once(BESIDE) {
+        let side = |label: &str| {
+            let setting = label.split(" seeds=").next();
+            let run = runs.iter().find(|run| Some(words(run).as_str()) == setting)?;
+            Some(named(study, run, label))
+        };
+        return Some(format!("{}{BESIDE}{}", side(first)?, side(second)?));
+    }
     let run = runs.iter().find(|run| run.id.0 == point.id)?;
+    Some(named(study, run, &point.label))
+}
+
+fn named(study: &Study, run: &Run, label: &str) -> String {
     // A mean over seeds belongs to no single one.
-    Some(match point.label.split_once(" seeds=") {
+    match label.split_once(" seeds=") {
         Some((_, seeds)) => {
             let one = Study {
                 seeds: Vec::new(),
@@ -105,7 +141,7 @@ fn name(study: &Study, runs: &[Run], point: &PointVerdict) -> Option<String> {
             format!("{}, mean of seeds {seeds}", selection::label(&one, run))
         }
         None => selection::label(study, run),
-    })
+    }
 }
 
 /// A reason with the points' names in words; longer labels first, as they may begin alike.
@@ -128,6 +164,7 @@ mod tests {
             label: label.into(),
             expected: error.map(|_| 0.003_201),
             computed: Some(computed),
+            half_width: None,
             error: error.filter(|_| !holds),
             holds: Some(holds),
         };
@@ -138,6 +175,7 @@ mod tests {
             unit: "m/s".into(),
             expected: error.map(|_| 0.003_201),
             computed: Some(0.002_968),
+            half_width: None,
             error,
             band: band.into(),
             verdict: Outcome::Fails,
@@ -167,6 +205,24 @@ mod tests {
         let mut open = verdict(Some(0.0726), "< 0.01");
         open.computed = Some(1.9);
         assert_eq!(failing(&open), None);
+    }
+
+    #[test]
+    fn means_over_seeds_are_told_with_their_half_width() {
+        let mut one = verdict(None, "< 0.01");
+        one.half_width = Some(0.000_034_1);
+        assert_eq!(found(&one).unwrap(), "2.968 ± 0.034 mm/s");
+    }
+
+    #[test]
+    fn the_reason_of_a_comparison_is_kept() {
+        let mut one = verdict(None, "greater");
+        one.expected = Some(0.0031);
+        for point in &mut one.points {
+            point.label = format!("{0}{BESIDE}{0} too", point.label);
+        }
+        assert_eq!(found(&one).unwrap(), "2.968 mm/s beside 3.100 mm/s");
+        assert_eq!(failing(&one), None);
     }
 
     #[test]

@@ -72,6 +72,12 @@ pub fn verdict_row(study: &Study, verdict: &Verdict) -> VerdictRow {
     };
     let value =
         |value: Option<f64>| value.map_or("–".to_owned(), |value| format::four_digits(value * unit.factor));
+    let measured = |computed: Option<f64>, half_width: Option<f64>| match (computed, half_width) {
+        (Some(computed), Some(half_width)) => {
+            format::plus_minus(computed * unit.factor, half_width * unit.factor)
+        }
+        (computed, _) => value(computed),
+    };
     let error = |error: Option<f64>| error.map_or("–".to_owned(), format::percent_found);
     let points = verdict.points.iter().map(|point| {
         let (kind, mark, word) = match point.holds {
@@ -82,7 +88,7 @@ pub fn verdict_row(study: &Study, verdict: &Verdict) -> VerdictRow {
         PointRow {
             label: point.label.clone(),
             expected: value(point.expected),
-            computed: value(point.computed),
+            computed: measured(point.computed, point.half_width),
             error: error(point.error),
             kind,
             mark,
@@ -95,7 +101,7 @@ pub fn verdict_row(study: &Study, verdict: &Verdict) -> VerdictRow {
         statement: verdict.statement.clone(),
         quantity: format::words(&verdict.quantity),
         expected: value(verdict.expected),
-        computed: value(verdict.computed),
+        computed: measured(verdict.computed, verdict.half_width),
         error: error(verdict.error),
         band: told::band(verdict),
         kind,

@@ -1,6 +1,7 @@
 //! Runs the points of a plan that have no result yet.
 
 mod clock;
+mod cores;
 mod interrupt;
 mod memory;
 mod panics;
@@ -20,7 +21,8 @@ use crate::study::model::{AxisValue, Point, Study, Work};
 /// What the command line may ask of a run.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// Points at a time; `None` takes the cores there are.
+    /// Threads at a time: points, each counted with the threads it keeps busy; `None` takes the cores
+    /// there are.
     pub jobs: Option<usize>,
     /// Only points with these axis (or scene, or parameter) values.
     pub only: Vec<(String, AxisValue)>,

@@ -214,6 +214,8 @@ fn counters(counters: Counters) -> Vec<(String, u64)> {
         fluid_pairs,
         coupling_pairs,
         list_rebuilds,
+        grain_pairs,
+        searched_pairs,
         porosity_clips,
     } = counters;
     let named = [
@@ -222,6 +224,8 @@ fn counters(counters: Counters) -> Vec<(String, u64)> {
         ("fluid_pairs", fluid_pairs),
         ("coupling_pairs", coupling_pairs),
         ("list_rebuilds", list_rebuilds),
+        ("grain_pairs", grain_pairs),
+        ("searched_pairs", searched_pairs),
         ("porosity_clips", porosity_clips),
     ];
     named
@@ -248,6 +252,7 @@ mod tests {
             scale: 1.0,
             order: 1.0,
             error: 0.0,
+            grains: 0,
             delay: 20.0,
             ending: RehearsalEnding::Completes,
         });

@@ -1,9 +1,11 @@
-//! A fixed number of threads, each taking the next point until none is left.
+//! A fixed number of threads, each taking the next point until none is left. A point that keeps
+//! several threads busy takes as many of the jobs.
 
 use std::collections::VecDeque;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 
+use super::cores::Cores;
 use super::interrupt::Watch;
 use super::point::{Limits, estimate, execute};
 use super::progress::Progress;
@@ -36,6 +38,7 @@ pub(super) struct Tally {
 struct Shared<'a> {
     queue: Mutex<VecDeque<(usize, &'a Planned)>>,
     tally: Mutex<Tally>,
+    cores: Cores,
     watch: Watch,
     progress: Progress,
 }
@@ -61,6 +64,7 @@ impl Pool<'_> {
                     .collect(),
             ),
             tally: Mutex::default(),
+            cores: Cores::new(self.jobs),
             watch: Watch::start(),
         };
         let spawned = thread::scope(|scope| {
@@ -93,10 +97,17 @@ impl Pool<'_> {
         if shared.watch.interrupted() || self.given_up(&lock(&shared.tally)) {
             return false;
         }
-        let Some((place, planned)) = lock(&shared.queue).pop_front() else {
+        let interrupted = || shared.watch.interrupted();
+        let mut queue = lock(&shared.queue);
+        let Some((place, planned)) = queue.pop_front() else {
             return false;
         };
-        let interrupted = || shared.watch.interrupted();
+        // The queue waits with the point, or small points would keep a large one waiting.
+        let _taken = shared.cores.take(planned.point.work.threads());
+        drop(queue);
+        if interrupted() {
+            return false;
+        }
         let progress = |fraction| shared.progress.advance(place, fraction);
         if let Some(run) = execute(self.study, planned, self.limits, &interrupted, &progress) {
             self.keep(planned, &run, shared);

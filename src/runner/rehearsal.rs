@@ -63,13 +63,85 @@ fn outcome(scene: &Rehearsal, reached: u32) -> Outcome {
     let scalar = |name, unit, value| Scalar { name, unit, value };
     Outcome {
         scalars: vec![scalar("limit", "m/s", limit), scalar("scale", "1", scene.scale)],
-        tables: vec![Table {
+        tables: std::iter::once(Table {
             name: "time_series",
             columns: vec![column("time", "s", times), column("value", "m/s", values)],
-        }],
+        })
+        .chain((scene.grains > 0).then(|| snapshots(scene, limit, reached)))
+        .collect(),
         counters: Counters {
             steps: u64::from(reached),
             ..Counters::default()
         },
+    }
+}
+
+/// Instants at which the grains are kept.
+const KEPT: u32 = 11;
+/// Radii of the grains, in turn [m].
+const RADII: [f64; 3] = [100e-6, 125e-6, 150e-6];
+/// Distance between the places of grains on the floor [m].
+const PITCH: f64 = 310e-6;
+
+/// Grains in layers above the floor, each falling at the series' speed onto its place in the lattice.
+fn snapshots(scene: &Rehearsal, limit: f64, reached: u32) -> Table {
+    let columns = [
+        ("time", "s"),
+        ("grain", "1"),
+        ("class", "1"),
+        ("x", "m"),
+        ("y", "m"),
+        ("z", "m"),
+        ("radius", "m"),
+        ("speed_x", "m/s"),
+        ("speed_y", "m/s"),
+        ("speed_z", "m/s"),
+        ("coordination", "1"),
+    ];
+    let mut values: Vec<Vec<f64>> = vec![Vec::new(); columns.len()];
+    let share = f64::from(reached) / f64::from(scene.samples.max(1));
+    let side = f64::from(scene.grains).cbrt().ceil() as u32;
+    for kept in 0..KEPT {
+        let time = scene.duration * f64::from(kept) / f64::from(KEPT - 1);
+        if time > share * scene.duration {
+            break;
+        }
+        for grain in 0..scene.grains {
+            let (column, row, layer) = (grain % side, grain / side % side, grain / (side * side));
+            let place = |index: u32| (f64::from(index) + 0.5) * PITCH;
+            // Higher layers begin higher and arrive later.
+            let arrival = scene.duration * (0.5 + 0.4 * f64::from(layer) / f64::from(side));
+            let left = (1.0 - time / arrival).max(0.0);
+            let speed = match left > 0.0 {
+                true => -limit * -(-time / scene.time_constant).exp_m1(),
+                false => 0.0,
+            };
+            let height = place(layer) * (1.0 + 2.0 * left);
+            let kind = grain as usize % RADII.len();
+            let touching = if left > 0.0 { 0.0 } else { 6.0 };
+            let row = [
+                time,
+                f64::from(grain),
+                kind as f64,
+                place(column),
+                place(row),
+                height,
+                RADII[kind],
+                0.0,
+                0.0,
+                speed,
+                touching,
+            ];
+            for (column, value) in values.iter_mut().zip(row) {
+                column.push(value);
+            }
+        }
+    }
+    let columns = columns.into_iter().zip(values);
+    Table {
+        name: "snapshots",
+        columns: columns
+            .map(|((name, unit), values)| Column { name, unit, values })
+            .collect(),
     }
 }

@@ -62,6 +62,7 @@ fn reseed(study: &Study, seeds: Option<u64>) -> Result<Vec<Point>, RunError> {
         .flat_map(|point| {
             (1..=seeds).map(move |seed| Point {
                 seed,
+                work: point.work.seeded(seed),
                 ..point.clone()
             })
         })
@@ -160,11 +161,7 @@ fn nothing_selected(study: &Study, planned: &[Planned], options: &Options) -> St
 }
 
 pub(super) fn words(value: &AxisValue) -> String {
-    match value {
-        AxisValue::Number(number) => number.to_string(),
-        AxisValue::Flag(flag) => flag.to_string(),
-        AxisValue::Word(word) => word.clone(),
-    }
+    value.to_string()
 }
 
 /// What the store knows of earlier runs.

@@ -45,7 +45,10 @@ fn build(path: &Path, root: &Node, problems: &mut Problems) -> Option<Study> {
         },
         problems,
     );
-    let written = written_scenes(root, problems);
+    let mut written = written_scenes(root, problems);
+    for scene in &mut written {
+        scene.node = shapes.opened(&scene.node, shapes.of("SceneSpec"));
+    }
     let usable: Vec<bool> = written
         .iter()
         .map(|scene| clean(&scene.node, shapes.of("SceneSpec"), &shapes))
@@ -190,7 +193,7 @@ fn written_scenes(root: &Node, problems: &mut Problems) -> Vec<WrittenScene> {
             Vec::new()
         }
         (None, None) => {
-            let help = "add `scene:` with one of single_sphere, constant_porosity_block, binary_collision, rehearsal";
+            let help = "add `scene:` with one of single_sphere, constant_porosity_block, binary_collision, sedimentation, rehearsal";
             problems.add(
                 &first_key(root),
                 "scene",

@@ -209,7 +209,15 @@ fn bind_everywhere<'a>(
                 "the path binds in no scene: `{}` has no `{}`",
                 miss.holder, miss.segment
             );
-            Err((message, advice(&miss.segment, &known)))
+            let help = if miss.unwritten {
+                format!(
+                    "write `{}: {{{}: {{…}}}}` in the scene",
+                    miss.holder, miss.segment
+                )
+            } else {
+                advice(&miss.segment, &known)
+            };
+            Err((message, help))
         }
         (true, None) => Err((
             "the path binds in no scene".to_owned(),

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use kynch_sim::scene::Scene;
 use serde::{Deserialize, Serialize};
 
 /// A study file, parsed and checked.
@@ -96,6 +97,10 @@ fn leaf(tree: &serde_json::Value, name: &str) -> Option<AxisValue> {
 impl std::fmt::Display for AxisValue {
     fn fmt(&self, out: &mut std::fmt::Formatter) -> std::fmt::Result {
         match self {
+            // Past a few zeros nobody counts them.
+            AxisValue::Number(number) if *number != 0.0 && !(1e-5..1e15).contains(&number.abs()) => {
+                write!(out, "{number:e}")
+            }
             AxisValue::Number(number) => write!(out, "{number}"),
             AxisValue::Flag(flag) => write!(out, "{flag}"),
             AxisValue::Word(word) => write!(out, "{word}"),
@@ -105,16 +110,40 @@ impl std::fmt::Display for AxisValue {
 
 /// What a point runs.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "rehearsals are few: a box would save nothing"
+)]
 pub enum Work {
-    Simulation(kynch_sim::scene::Scene),
+    Simulation(Scene),
     Rehearsal(Rehearsal),
+}
+
+impl Work {
+    /// The same work with another seed, where it has one.
+    pub fn seeded(&self, seed: u64) -> Work {
+        let mut work = self.clone();
+        if let Work::Simulation(Scene::Sedimentation(scene)) = &mut work {
+            scene.seed = seed;
+        }
+        work
+    }
+
+    /// Threads that it keeps busy.
+    pub fn threads(&self) -> usize {
+        match self {
+            Work::Simulation(scene) => scene.threads() as usize,
+            Work::Rehearsal(_) => 1,
+        }
+    }
 }
 
 /// A scene without physics: it returns a known series, so that plans, stores, verdicts and reports
 /// can be tried in milliseconds, failures included.
 ///
 /// `value(t) = limit · (1 + error · scale^order) · (1 − exp(−t / time_constant))`, sampled at
-/// `samples` instants up to `duration`; scalar `limit` is its limit, scalar `scale` its scale.
+/// `samples` instants up to `duration`; scalar `limit` is its limit, scalar `scale` its scale. With
+/// `grains` it also keeps snapshots of grains that fall onto the floor of a box.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rehearsal {
     pub limit: f64,
@@ -124,6 +153,8 @@ pub struct Rehearsal {
     pub scale: f64,
     pub order: f64,
     pub error: f64,
+    /// Grains in the table `snapshots`; none, no table.
+    pub grains: u32,
     /// Real time to spend [s].
     pub delay: f64,
     /// How it ends.
@@ -205,7 +236,35 @@ pub enum Check {
         within: f64,
     },
     /// A scalar rises (or falls) along an axis, everything else fixed.
-    Monotone { of: String, over: String, rising: bool },
+    Monotone {
+        of: String,
+        over: String,
+        rising: bool,
+        /// A step against the trend below twice its standard error over seeds counts as flat.
+        within_noise: bool,
+    },
+    /// A scalar of one selection of points beside that of another, everything else equal.
+    Compare(Comparison),
+}
+
+/// How a scalar of a first selection lies to that of a second.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    pub of: String,
+    pub between: [Selection; 2],
+    pub is: Relation,
+    /// Relative to the value of the second: the least difference of `greater` and `less`, the largest of
+    /// `equal`.
+    pub margin: f64,
+    /// Twice the standard error of the difference over seeds is allowed on top of `margin`.
+    pub within_noise: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relation {
+    Greater,
+    Less,
+    Equal,
 }
 
 /// A figure to draw.
@@ -243,4 +302,36 @@ pub enum FigureKind {
     },
     /// A profile table, one line per run: first column upwards, `of` along.
     Profile { of: String, group: Option<String> },
+    /// A scalar over an axis: mean over seeds with error bars, references beside.
+    Response {
+        of: String,
+        over: String,
+        group: Option<String>,
+        against: Vec<Beside>,
+    },
+    /// Pictures of the grains of one point at the kept times nearest to these [s].
+    Snapshots { times: Vec<f64> },
+}
+
+/// What a response is drawn beside.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Beside {
+    /// A reference by name, at each point's own settings.
+    Reference(String),
+    Data(DataSeries),
+}
+
+/// Two columns of a published table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DataSeries {
+    /// File name in the folder `references`.
+    pub file: String,
+    pub x: String,
+    pub y: String,
+    /// What turns the columns into SI units.
+    pub factors: (f64, f64),
+    /// Rows to take: columns with the text they hold; all rows when empty.
+    pub rows: Vec<(String, String)>,
+    /// Its name in the legend.
+    pub label: Option<String>,
 }

@@ -9,7 +9,10 @@ use super::published::published;
 pub fn observables(work: &Work) -> Vec<Observable> {
     match work {
         Work::Simulation(scene) => kynch_sim::scene::observables(scene),
-        Work::Rehearsal(_) => REHEARSAL.iter().map(observable).collect(),
+        Work::Rehearsal(scene) => {
+            let snapshots = (scene.grains > 0).then_some(&SNAPSHOTS);
+            REHEARSAL.iter().chain(snapshots).map(observable).collect()
+        }
     }
 }
 
@@ -25,13 +28,15 @@ fn observable(row: &Row) -> Observable {
     }
 }
 
-use ObservableKind::{Scalar, Series};
+use ObservableKind::{Profile, Scalar, Series};
 
 const REHEARSAL: &[Row] = &[
     ("limit", "m/s", Scalar, "limit of the series"),
     ("scale", "1", Scalar, "scale that the error depends on"),
     ("value", "m/s", Series, "the series"),
 ];
+
+const SNAPSHOTS: Row = ("snapshots", "1", Profile, "every grain at some instants");
 
 /// References by name, and whether each is a curve: solutions, then published data.
 pub fn references() -> Vec<(&'static str, ObservableKind)> {

@@ -13,6 +13,8 @@ pub struct Miss {
     pub known: Vec<String>,
     /// How many segments were good.
     pub depth: usize,
+    /// The segment is a choice that the scene leaves to its default.
+    pub unwritten: bool,
 }
 
 /// Follows a path from the kind of a scene downwards. The kind may be left out.
@@ -39,6 +41,7 @@ pub fn bind<'a>(
             holder,
             known: known.into_iter().map(str::to_owned).collect(),
             depth,
+            unwritten: chosen.is_none() && variants.iter().any(|variant| variant.name == *segment),
         };
         if variants.is_empty() {
             let Some(field) = shapes.field(schema, segment) else {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::axes::{WrittenAxis, WrittenScene};
-use super::faults::{Fault, faults};
+use super::faults::Fault;
 use super::model::{AxisValue, Plan, Point, Work};
 use super::path;
 use super::problem::Problems;
@@ -157,6 +157,9 @@ fn chosen(choice: &[(usize, usize)], scene: &WrittenScene, ingredients: &Ingredi
         );
         bound.push(axis);
     }
+    let tree = ingredients
+        .shapes
+        .opened(&tree, ingredients.shapes.of("SceneSpec"));
     let axes = choice
         .iter()
         .filter(|(axis, _)| bound.contains(axis))
@@ -228,7 +231,7 @@ fn point(
         .collect::<Vec<_>>()
         .join(" ");
     findings.checked += 1;
-    for fault in faults(&work).into_iter().chain(twice) {
+    for fault in work::refusals(&spec, &work).into_iter().chain(twice) {
         findings.add(fault, scene, &tree, &label);
     }
     let settings = work::settings(&spec);
@@ -239,7 +242,7 @@ fn point(
             axes: axes.clone(),
             seed: *seed,
             settings: settings.clone(),
-            work: work.clone(),
+            work: work.seeded(*seed),
         });
     }
 }
@@ -322,11 +325,18 @@ fn locate(scene: &WrittenScene, tree: &Node, path: &str) -> (Range<usize>, Strin
     let mut span = kind.span.clone();
     let field = format!("{}.{}.{path}", scene.path, kind.name);
     for segment in path.split('.') {
-        let Some((key, child)) = node.entry(segment) else {
-            return (span, field);
-        };
-        span = key.span.clone();
-        node = child;
+        let element = || node.elements().get(segment.parse::<usize>().ok()?);
+        match (node.entry(segment), element()) {
+            (Some((key, child)), _) => {
+                span = key.span.clone();
+                node = child;
+            }
+            (None, Some(child)) => {
+                span = child.span.clone();
+                node = child;
+            }
+            (None, None) => return (span, field),
+        }
     }
     (node.span.clone(), field)
 }

@@ -8,7 +8,7 @@ use super::nearest::advice;
 use super::problem::Problems;
 use super::spec::quantity::{ANYTHING, DIMENSION, ONE_OR_MORE, WORDS};
 use super::units::{self, Dimension};
-use super::yaml::{Node, Value};
+use super::yaml::{Key, Node, Value};
 
 /// The schema of a study file and what can be asked of it.
 pub struct Shapes {
@@ -19,6 +19,8 @@ pub struct Shapes {
 pub struct Variant<'a> {
     pub name: &'a str,
     pub fields: Option<&'a Schema>,
+    /// Whether the name alone will do.
+    pub alone: bool,
 }
 
 /// Where a node stands: its path, and the key to underline when something is missing from it.
@@ -111,7 +113,45 @@ impl Shapes {
         for alternative in schema["oneOf"].as_array().into_iter().flatten() {
             collect(alternative, &mut variants);
         }
-        variants
+        merged(variants)
+    }
+
+    /// The node with every name that stands alone in place of its fields given an empty map of them.
+    pub fn opened(&self, node: &Node, schema: &Schema) -> Node {
+        let schema = self.resolve(schema);
+        let mut opened = node.clone();
+        let variants = self.variants(schema);
+        match &mut opened.value {
+            Value::Text(word) => {
+                let fielded =
+                    |variant: &&Variant| variant.name == word && variant.alone && variant.fields.is_some();
+                if variants.iter().any(|variant| fielded(&variant)) {
+                    let key = Key {
+                        name: word.clone(),
+                        span: node.span.clone(),
+                    };
+                    let fields = Node {
+                        span: node.span.clone(),
+                        value: Value::Map(Vec::new()),
+                    };
+                    opened.value = Value::Map(vec![(key, fields)]);
+                }
+            }
+            Value::Map(entries) => {
+                for (key, child) in entries {
+                    let variant = variants.iter().find(|variant| variant.name == key.name);
+                    let below = match variant {
+                        Some(variant) => variant.fields,
+                        None => self.field(schema, &key.name),
+                    };
+                    if let Some(below) = below {
+                        *child = self.opened(child, below);
+                    }
+                }
+            }
+            _ => {}
+        }
+        opened
     }
 
     /// Schema of a field of an object.
@@ -233,7 +273,7 @@ impl Shapes {
         let names: Vec<&str> = variants.iter().map(|variant| variant.name).collect();
         match &node.value {
             Value::Text(word) => match variants.iter().find(|variant| variant.name == word) {
-                Some(Variant { fields: None, .. }) => {}
+                Some(Variant { alone: true, .. }) => {}
                 Some(_) => {
                     let message = format!("`{word}` needs its fields");
                     problems.add(&node.span, &place.path, message, format!("write `{word}: {{…}}`"));
@@ -324,17 +364,32 @@ impl Shapes {
     }
 }
 
+/// One variant per name: a name that is a word and has fields may do without them.
+fn merged(variants: Vec<Variant>) -> Vec<Variant> {
+    let mut merged: Vec<Variant> = Vec::new();
+    for variant in variants {
+        match merged.iter_mut().find(|other| other.name == variant.name) {
+            Some(other) => {
+                other.fields = other.fields.or(variant.fields);
+                other.alone |= variant.alone;
+            }
+            None => merged.push(variant),
+        }
+    }
+    merged
+}
+
 fn collect<'a>(schema: &'a Schema, variants: &mut Vec<Variant<'a>>) {
     let words = schema["enum"]
         .as_array()
         .into_iter()
         .flatten()
         .chain(schema.get("const"));
-    variants.extend(
-        words
-            .filter_map(Schema::as_str)
-            .map(|name| Variant { name, fields: None }),
-    );
+    variants.extend(words.filter_map(Schema::as_str).map(|name| Variant {
+        name,
+        fields: None,
+        alone: true,
+    }));
     // A variant with fields is an object with exactly one property, which is required.
     let closed =
         schema["additionalProperties"] == false && schema["required"].as_array().map(Vec::len) == Some(1);
@@ -346,6 +401,7 @@ fn collect<'a>(schema: &'a Schema, variants: &mut Vec<Variant<'a>>) {
                 .map(|(name, fields)| Variant {
                     name,
                     fields: Some(fields),
+                    alone: false,
                 }),
         );
     }

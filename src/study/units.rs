@@ -2,22 +2,24 @@
 
 use std::fmt;
 
-/// Exponents of kilogram, metre and second.
+/// Exponents of kilogram, metre, second and ampere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Dimension([i8; 3]);
+pub struct Dimension([i8; 4]);
 
 impl Dimension {
-    pub const NONE: Dimension = Dimension([0, 0, 0]);
-    pub const LENGTH: Dimension = Dimension([0, 1, 0]);
-    pub const TIME: Dimension = Dimension([0, 0, 1]);
-    pub const DENSITY: Dimension = Dimension([1, -3, 0]);
-    pub const VISCOSITY: Dimension = Dimension([1, -1, -1]);
-    pub const SPEED: Dimension = Dimension([0, 1, -1]);
-    pub const ACCELERATION: Dimension = Dimension([0, 1, -2]);
-    pub const STIFFNESS: Dimension = Dimension([1, 0, -2]);
-    pub const PRESSURE: Dimension = Dimension([1, -1, -2]);
-    pub const DAMPING: Dimension = Dimension([1, 0, -1]);
-    pub const FREQUENCY: Dimension = Dimension([0, 0, -1]);
+    pub const NONE: Dimension = Dimension([0, 0, 0, 0]);
+    pub const LENGTH: Dimension = Dimension([0, 1, 0, 0]);
+    pub const TIME: Dimension = Dimension([0, 0, 1, 0]);
+    pub const DENSITY: Dimension = Dimension([1, -3, 0, 0]);
+    pub const VISCOSITY: Dimension = Dimension([1, -1, -1, 0]);
+    pub const SPEED: Dimension = Dimension([0, 1, -1, 0]);
+    pub const ACCELERATION: Dimension = Dimension([0, 1, -2, 0]);
+    pub const STIFFNESS: Dimension = Dimension([1, 0, -2, 0]);
+    pub const PRESSURE: Dimension = Dimension([1, -1, -2, 0]);
+    pub const DAMPING: Dimension = Dimension([1, 0, -1, 0]);
+    pub const FREQUENCY: Dimension = Dimension([0, 0, -1, 0]);
+    pub const ENERGY: Dimension = Dimension([1, 2, -2, 0]);
+    pub const CHARGE: Dimension = Dimension([0, 0, 1, 1]);
 
     /// What a quantity of this dimension is called, where it has a name.
     pub fn name(self) -> Option<&'static str> {
@@ -37,7 +39,7 @@ impl Dimension {
     }
 
     fn powers(self) -> String {
-        let parts: Vec<String> = ["kg", "m", "s"]
+        let parts: Vec<String> = ["kg", "m", "s", "A"]
             .iter()
             .zip(self.0)
             .filter(|(_, power)| *power != 0)
@@ -54,9 +56,11 @@ impl Dimension {
     }
 
     fn times(self, other: Dimension) -> Dimension {
-        let [a, b, c] = self.0;
-        let [d, e, f] = other.0;
-        Dimension([a.saturating_add(d), b.saturating_add(e), c.saturating_add(f)])
+        let mut sum = self.0;
+        for (exponent, more) in sum.iter_mut().zip(other.0) {
+            *exponent = exponent.saturating_add(more);
+        }
+        Dimension(sum)
     }
 }
 
@@ -78,21 +82,22 @@ const NAMED: &[(Dimension, &str, &str)] = &[
     (Dimension::NONE, "number", "1"),
     (Dimension::LENGTH, "length", "m"),
     (Dimension::TIME, "time", "s"),
-    (Dimension([1, 0, 0]), "mass", "kg"),
-    (Dimension([0, 2, 0]), "area", "m²"),
-    (Dimension([0, 3, 0]), "volume", "m³"),
+    (Dimension([1, 0, 0, 0]), "mass", "kg"),
+    (Dimension([0, 2, 0, 0]), "area", "m²"),
+    (Dimension([0, 3, 0, 0]), "volume", "m³"),
     (Dimension::DENSITY, "density", "kg/m³"),
     (Dimension::SPEED, "speed", "m/s"),
     (Dimension::ACCELERATION, "acceleration", "m/s²"),
     (Dimension::VISCOSITY, "viscosity", "Pa s"),
     (Dimension::PRESSURE, "pressure", "Pa"),
-    (Dimension([1, 1, -2]), "force", "N"),
+    (Dimension([1, 1, -2, 0]), "force", "N"),
     (Dimension::STIFFNESS, "stiffness", "N/m"),
     (Dimension::DAMPING, "damping coefficient", "N s/m"),
-    (Dimension([1, 2, -2]), "energy", "J"),
-    (Dimension([1, 2, -3]), "power", "W"),
-    (Dimension([0, 2, -1]), "diffusivity", "m²/s"),
+    (Dimension::ENERGY, "energy", "J"),
+    (Dimension([1, 2, -3, 0]), "power", "W"),
+    (Dimension([0, 2, -1, 0]), "diffusivity", "m²/s"),
     (Dimension::FREQUENCY, "frequency", "1/s"),
+    (Dimension::CHARGE, "charge", "C"),
 ];
 
 /// Symbol, dimension, power of ten and the factor beside it.
@@ -104,20 +109,22 @@ const WHOLE: &[Unit] = &[
     ("rad", Dimension::NONE, 0, 1.0),
     ("min", Dimension::TIME, 0, 60.0),
     ("h", Dimension::TIME, 0, 3600.0),
-    ("kg", Dimension([1, 0, 0]), 0, 1.0),
-    ("bar", Dimension([1, -1, -2]), 5, 1.0),
-    ("mbar", Dimension([1, -1, -2]), 2, 1.0),
+    ("kg", Dimension([1, 0, 0, 0]), 0, 1.0),
+    ("bar", Dimension([1, -1, -2, 0]), 5, 1.0),
+    ("mbar", Dimension([1, -1, -2, 0]), 2, 1.0),
 ];
 
 const PREFIXED: &[Unit] = &[
-    ("Pa", Dimension([1, -1, -2]), 0, 1.0),
-    ("Hz", Dimension([0, 0, -1]), 0, 1.0),
+    ("Pa", Dimension([1, -1, -2, 0]), 0, 1.0),
+    ("Hz", Dimension([0, 0, -1, 0]), 0, 1.0),
     ("m", Dimension::LENGTH, 0, 1.0),
     ("s", Dimension::TIME, 0, 1.0),
-    ("g", Dimension([1, 0, 0]), -3, 1.0),
-    ("N", Dimension([1, 1, -2]), 0, 1.0),
-    ("J", Dimension([1, 2, -2]), 0, 1.0),
-    ("W", Dimension([1, 2, -3]), 0, 1.0),
+    ("g", Dimension([1, 0, 0, 0]), -3, 1.0),
+    ("N", Dimension([1, 1, -2, 0]), 0, 1.0),
+    ("J", Dimension::ENERGY, 0, 1.0),
+    ("C", Dimension::CHARGE, 0, 1.0),
+    ("A", Dimension([0, 0, 0, 1]), 0, 1.0),
+    ("W", Dimension([1, 2, -3, 0]), 0, 1.0),
     ("P", Dimension::VISCOSITY, -1, 1.0),
 ];
 
@@ -134,6 +141,9 @@ const PREFIXES: &[(&str, i32)] = &[
     ("μ", -6),
     ("n", -9),
     ("p", -12),
+    ("f", -15),
+    ("a", -18),
+    ("z", -21),
 ];
 
 /// A number in SI units with its dimension.
@@ -299,6 +309,10 @@ mod tests {
             ("1e3 N/m", 1000.0, Dimension::STIFFNESS),
             ("10 N s/m", 10.0, Dimension::DAMPING),
             ("20 rad/s", 20.0, Dimension::FREQUENCY),
+            ("6.5e-20 J", 6.5e-20, Dimension::ENERGY),
+            ("65 zJ", 6.5e-20, Dimension::ENERGY),
+            ("2 fC", 2e-15, Dimension::CHARGE),
+            ("2 pA s", 2e-12, Dimension::CHARGE),
             ("1 %", 0.01, Dimension::NONE),
             ("-3 mm", -3e-3, Dimension::LENGTH),
         ] {

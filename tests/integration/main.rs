@@ -7,5 +7,6 @@ mod crash;
 mod readers;
 mod rehearsals;
 mod runner;
+mod sedimentation;
 mod store;
 mod studies;

@@ -15,6 +15,7 @@ pub fn rehearsal(scale: f64) -> Rehearsal {
         scale,
         order: 2.0,
         error: 0.03,
+        grains: 0,
         delay: 0.0,
         ending: RehearsalEnding::Completes,
     }

@@ -7,6 +7,8 @@ use kynch::study::{self};
 use kynch_sim::scene::{Fluid, Scene};
 use proptest::prelude::*;
 
+use crate::sedimentation::{OTHER, VARIED};
+
 fn load(name: &str) -> Study {
     let path = study::find(name).expect("a study");
     study::load(&path).unwrap_or_else(|error| panic!("{error}"))
@@ -19,7 +21,7 @@ fn particles_per_side(point: &Point) -> f64 {
     let (fluid, column, grains) = match scene {
         Scene::SingleSphere(sphere) => (&sphere.fluid, sphere.column, sphere.grains),
         Scene::ConstantPorosityBlock(block) => (&block.fluid, block.column, block.grains),
-        Scene::BinaryCollision(_) => panic!("a scene with a fluid"),
+        Scene::BinaryCollision(_) | Scene::Sedimentation(_) => panic!("a scene with a fluid"),
     };
     let Fluid::Sph(fluid) = fluid else {
         panic!("a particle fluid")
@@ -144,6 +146,7 @@ fn the_schema_is_closed_and_its_references_resolve() {
             "single_sphere",
             "constant_porosity_block",
             "binary_collision",
+            "sedimentation",
             "rehearsal"
         ]
     );
@@ -202,10 +205,10 @@ proptest! {
 
     #[test]
     fn no_mutation_of_a_study_panics(
-        which in 0..2usize,
+        which in 0..4usize,
         edits in prop::collection::vec((any::<prop::sample::Index>(), 0..12usize, snippet()), 1..6),
     ) {
-        let good = [SPHERES, include_str!("../../studies/smoke.yaml")];
+        let good = [SPHERES, include_str!("../../studies/smoke.yaml"), OTHER, VARIED];
         let mut text: Vec<char> = good[which].chars().collect();
         for (place, removed, inserted) in edits {
             let from = place.index(text.len() + 1);

@@ -35,6 +35,10 @@ pub struct Counters {
     pub fluid_pairs: u64,
     /// Fluid–grain pairs evaluated.
     pub coupling_pairs: u64,
+    /// Grain–grain pairs evaluated.
+    pub grain_pairs: u64,
+    /// Grain–grain pairs looked at in search of near ones.
+    pub searched_pairs: u64,
     /// Neighbour list rebuilds.
     pub list_rebuilds: u64,
     /// Porosities clipped to their floor.

@@ -25,8 +25,9 @@ pub fn check(groups: &[Replicates], of: &str, against: &str, below: f64, norm: N
             finding.error = Some(error.error);
             finding.expected = Some(error.expected);
             finding.computed = Some(error.computed);
+            finding.half_width = Some(error.half_width_computed);
         }
-        widest_spread = widest_spread.max(error.spread);
+        widest_spread = widest_spread.max(error.half_width);
         let part = part(group, &error, below);
         finding.points.push(PointVerdict {
             holds: part.decided(),
@@ -41,12 +42,13 @@ pub fn check(groups: &[Replicates], of: &str, against: &str, below: f64, norm: N
 }
 
 fn part(group: &Replicates, error: &PointError, below: f64) -> Part {
-    let found = format!("{} %", significant(100.0 * error.error, 3));
-    if error.spread > 0.0 && (error.error - below).abs() <= error.spread {
+    let percent_of = |share: f64| format!("{} %", significant(100.0 * share, 3));
+    let found = percent_of(error.error);
+    if error.half_width > 0.0 && (error.error - below).abs() <= error.half_width {
         return Part::open(format!(
-            "{}: the error {found} ± {} over seeds straddles {}; run more seeds",
+            "{}: the error {found} ± {} (95 % confidence over seeds) straddles {}; run more seeds",
             group.label(),
-            percent(error.spread),
+            percent_of(error.half_width),
             percent(below)
         ));
     }

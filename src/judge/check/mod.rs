@@ -1,5 +1,6 @@
 //! One file per kind of expectation: from selected runs to what was found.
 
+pub mod compare;
 pub mod error;
 pub mod monotone;
 pub mod order;
@@ -15,12 +16,14 @@ pub struct Finding {
     pub unit: String,
     pub expected: Option<f64>,
     pub computed: Option<f64>,
+    /// Half width of the 95 % confidence interval of `computed`.
+    pub half_width: Option<f64>,
     pub error: Option<f64>,
     pub source: String,
     pub points: Vec<PointVerdict>,
     /// Each part of the statement: it holds, fails, or cannot be told.
     pub parts: Vec<Part>,
-    /// Largest standard error over seeds, in words; nothing with one seed each.
+    /// Largest confidence half width over seeds, in words; nothing with one seed each.
     pub spread: Option<String>,
 }
 
@@ -89,6 +92,7 @@ pub fn blank(replicates: &Replicates) -> PointVerdict {
         label: replicates.label(),
         expected: None,
         computed: None,
+        half_width: None,
         error: None,
         holds: None,
     }
@@ -99,16 +103,17 @@ pub fn erroneous(replicates: &Replicates, error: &PointError) -> PointVerdict {
     PointVerdict {
         expected: Some(error.expected),
         computed: Some(error.computed),
+        half_width: Some(error.half_width_computed).filter(|width| *width > 0.0),
         error: Some(error.error),
         ..blank(replicates)
     }
 }
 
-/// The larger standard error, in words.
+/// The largest half width of a confidence interval, in words.
 pub fn spread(replicates: &[Replicates], largest: f64) -> Option<String> {
     let several = replicates.iter().any(|group| group.runs.len() > 1);
     several.then(|| {
         let words = super::words::significant(largest, 3);
-        format!("standard error over seeds at most {words}")
+        format!("95 % confidence half width over seeds at most {words}")
     })
 }

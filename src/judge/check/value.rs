@@ -28,11 +28,13 @@ pub fn check(groups: &[Replicates], of: &str, band: &Band) -> Finding {
         if margin < narrowest {
             narrowest = margin;
             finding.computed = Some(mean.value);
+            finding.half_width = Some(mean.sample.half_width());
         }
-        widest_spread = widest_spread.max(mean.spread);
+        widest_spread = widest_spread.max(mean.sample.half_width());
         let part = part(group, of, band, &mean);
         finding.points.push(PointVerdict {
             computed: Some(mean.value),
+            half_width: Some(mean.sample.half_width()).filter(|width| *width > 0.0),
             holds: part.decided(),
             ..blank(group)
         });
@@ -46,11 +48,12 @@ pub fn check(groups: &[Replicates], of: &str, band: &Band) -> Finding {
 fn part(group: &Replicates, of: &str, band: &Band, mean: &Mean) -> Part {
     let margin = margin(band, mean.value);
     let found = words::significant(mean.value, 6);
-    if margin.abs() <= mean.spread && mean.spread > 0.0 {
+    let half_width = mean.sample.half_width();
+    if margin.abs() <= half_width && half_width > 0.0 {
         return Part::open(format!(
-            "{}: {of} = {found} ± {} over seeds straddles a limit; run more seeds",
+            "{}: {of} = {found} ± {} (95 % confidence over seeds) straddles a limit; run more seeds",
             group.label(),
-            words::significant(mean.spread, 3)
+            words::significant(half_width, 3)
         ));
     }
     // The edge belongs to a two-sided band and not to a bound.

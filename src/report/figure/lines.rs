@@ -16,6 +16,41 @@ pub struct Line {
     pub opacity: f64,
     /// Where markers sit on the line, as its `n`-th of several; `None` for none.
     pub markers: Option<usize>,
+    /// Half width of the band around it, where it is a mean; along x for a profile.
+    pub band: Option<Band>,
+}
+
+/// Scatter around a mean, in SI units.
+pub struct Band {
+    pub half: Vec<f64>,
+    /// Whether it lies along x.
+    pub across: bool,
+}
+
+impl Line {
+    /// Edges of the band, or the line itself.
+    fn edges(&self) -> [Vec<(f64, f64)>; 2] {
+        [-1.0, 1.0].map(|side| {
+            let half = |index: usize| self.band.as_ref().map_or(0.0, |band| side * band.half[index]);
+            let across = self.band.as_ref().is_some_and(|band| band.across);
+            let points = self.x.iter().zip(&self.y).enumerate();
+            let moved = points.map(|(index, (x, y))| match across {
+                true => (x + half(index), *y),
+                false => (*x, y + half(index)),
+            });
+            moved.collect()
+        })
+    }
+
+    /// Abscissae that the line and its band reach.
+    pub fn all_x(&self) -> Vec<f64> {
+        self.edges().concat().into_iter().map(|(x, _)| x).collect()
+    }
+
+    /// Ordinates that the line and its band reach.
+    pub fn all_y(&self) -> Vec<f64> {
+        self.edges().concat().into_iter().map(|(_, y)| y).collect()
+    }
 }
 
 /// Markers on one line: enough to tell it, few enough to see the line.
@@ -190,6 +225,25 @@ pub fn reference_style() -> Style {
         dash: theme::REFERENCE_DASH,
         marker: theme::Marker::Circle,
     }
+}
+
+/// Shades the band of a mean.
+pub fn shade(panel: &mut Panel, line: &Line, factors: (f64, f64)) {
+    if line.band.is_none() {
+        return;
+    }
+    let [mut outline, back] = line.edges();
+    outline.extend(back.into_iter().rev());
+    let inside = |panel: &Panel, (x, y): (f64, f64)| {
+        let finite = x.is_finite() && y.is_finite();
+        finite && panel.x.scale.fraction(x * factors.0) < 1.0 + 1e-9
+    };
+    let corners = outline
+        .into_iter()
+        .filter(|place| inside(panel, *place))
+        .map(|(x, y)| panel.at(x * factors.0, y * factors.1))
+        .collect();
+    panel.canvas.area(corners, line.style.colour, theme::BAND_OPACITY);
 }
 
 /// Draws one curve as far as the horizontal axis goes; values in SI, `factors` turn them into

@@ -3,8 +3,11 @@
 pub mod error_against_resolution;
 mod lines;
 pub mod profile;
+mod replicates;
+pub mod response;
 pub mod run_time_against_error;
 mod slope;
+pub mod snapshots;
 pub mod time_series;
 
 use super::numbers::Numbers;
@@ -20,6 +23,8 @@ pub struct Material<'a> {
     pub figure: &'a Figure,
     /// The completed runs it shows.
     pub runs: Vec<&'a Run>,
+    /// Every run of the study, whatever its end.
+    pub all: &'a [Run],
     pub numbers: &'a Numbers<'a>,
 }
 
@@ -111,13 +116,19 @@ pub fn draw(study: &Study, runs: &[Run], figure: &Figure, numbers: &Numbers) -> 
     if chosen.is_empty() {
         return Err(ReportError("no completed run belongs to this figure".to_owned()));
     }
-    let material = Material {
-        study,
-        figure,
-        runs: chosen,
-        numbers,
+    let mut plate = match &figure.kind {
+        FigureKind::TimeSeries { .. } | FigureKind::Profile { .. } => {
+            drawn_as_means(study, figure, (chosen, runs), numbers)?
+        }
+        _ => Material {
+            study,
+            figure,
+            runs: chosen,
+            all: runs,
+            numbers,
+        }
+        .draw()?,
     };
-    let mut plate = material.draw()?;
     let left_out = runs
         .iter()
         .filter(|run| run.status != Status::Completed && selection::admits(&figure.selection, run))
@@ -125,6 +136,40 @@ pub fn draw(study: &Study, runs: &[Run], figure: &Figure, numbers: &Numbers) -> 
     if left_out > 0 {
         plate.notes.push(format!("Left out: {left_out} failed."));
     }
+    Ok(plate)
+}
+
+/// Curves of several seeds as their mean with a band.
+fn drawn_as_means(
+    study: &Study,
+    figure: &Figure,
+    (runs, all): (Vec<&Run>, &[Run]),
+    numbers: &Numbers,
+) -> Result<Plate, ReportError> {
+    let Some(means) = replicates::averaged(&runs) else {
+        return Material {
+            study,
+            figure,
+            runs,
+            all,
+            numbers,
+        }
+        .draw();
+    };
+    // A mean belongs to no seed: labels leave it out.
+    let study = Study {
+        seeds: Vec::new(),
+        ..study.clone()
+    };
+    let material = Material {
+        study: &study,
+        figure,
+        runs: means.iter().collect(),
+        all: &means,
+        numbers,
+    };
+    let mut plate = material.draw()?;
+    plate.notes.push(replicates::note(&runs, means.len()));
     Ok(plate)
 }
 
@@ -154,6 +199,13 @@ impl Material<'_> {
                 run_time_against_error::draw(self, of, against, group.as_deref())
             }
             FigureKind::Profile { of, group } => profile::draw(self, of, group.as_deref()),
+            FigureKind::Response {
+                of,
+                over,
+                group,
+                against,
+            } => response::draw(self, &response::Question { of, over, against }, group.as_deref()),
+            FigureKind::Snapshots { times } => snapshots::draw(self, times),
         }
     }
 

@@ -3,6 +3,7 @@
 use super::super::axis::Scale;
 use super::super::panel::{Axis, Panel};
 use super::lines::{self, Line};
+use super::replicates::deviation_of;
 use super::{Cell, Material, Plate, Table};
 use crate::report::{ReportError, format, selection};
 use crate::store::model::{Column, Run};
@@ -21,6 +22,7 @@ pub fn draw(material: &Material, of: &str, group: Option<&str>) -> Result<Plate,
             style: *style,
             opacity: *opacity,
             markers: *markers,
+            band: scatter(run, of, along),
         });
     }
     let (height_name, height_unit) = height_axis.unwrap_or_default();
@@ -37,7 +39,7 @@ pub fn draw(material: &Material, of: &str, group: Option<&str>) -> Result<Plate,
             scale: Scale::linear(
                 drawn
                     .iter()
-                    .flat_map(|line| line.x.iter().map(|x| x * along.factor)),
+                    .flat_map(|line| line.all_x().into_iter().map(|x| x * along.factor)),
             ),
         },
         Axis {
@@ -51,6 +53,9 @@ pub fn draw(material: &Material, of: &str, group: Option<&str>) -> Result<Plate,
     );
     panel.heading = looks.heading;
     for line in &drawn {
+        lines::shade(&mut panel, line, (along.factor, height.factor));
+    }
+    for line in &drawn {
         lines::draw(&mut panel, line, (along.factor, height.factor));
     }
     let suggested = format!("{called} over {}", format::words(&height_name));
@@ -59,10 +64,13 @@ pub fn draw(material: &Material, of: &str, group: Option<&str>) -> Result<Plate,
     let description = format!("{} profiles, height upwards.", drawn.len());
     let drawing = panel.finish(&looks.legend, &material.id(), &title, &description)?;
     let heads = [
+        "run".to_owned(),
         format!("{height_name} [{height_unit}]"),
         format!("{along_name} [{along_unit}]"),
+        format!("{} [{along_unit}]", deviation_of(&along_name)),
     ];
-    let table = table(material, of, &["run", &heads[0], &heads[1]])?;
+    let means = drawn.iter().any(|line| line.band.is_some());
+    let table = table(material, of, &heads[..if means { 4 } else { 3 }])?;
     Ok(material.plate(title, drawing, notes, table))
 }
 
@@ -81,17 +89,36 @@ fn columns<'a>(run: &'a Run, of: &str) -> Result<(&'a Column, &'a Column), Repor
     })
 }
 
-fn table(material: &Material, of: &str, head: &[&str]) -> Result<Table, ReportError> {
-    let mut table = Table::new(head);
+/// The scatter over seeds of a mean.
+fn scatter(run: &Run, of: &str, along: &Column) -> Option<lines::Band> {
+    let name = deviation_of(&along.name);
+    let table = run.table(of).filter(|table| table.column(&name).is_some());
+    let mut profiles = run.tables.iter().filter(|table| table.name != "time_series");
+    let column = table.map_or_else(
+        || profiles.find_map(|table| table.column(&name)),
+        |table| table.column(&name),
+    )?;
+    let half = column.values.clone();
+    Some(lines::Band { half, across: true })
+}
+
+fn table(material: &Material, of: &str, head: &[String]) -> Result<Table, ReportError> {
+    let mut table = Table {
+        head: head.to_vec(),
+        rows: Vec::new(),
+    };
     for run in &material.runs {
         let (height, along) = columns(run, of)?;
         let label = selection::label(material.study, run);
-        for (height, along) in height.values.iter().zip(&along.values) {
-            table.rows.push(vec![
+        let band = scatter(run, of, along);
+        for (index, (height, along)) in height.values.iter().zip(&along.values).enumerate() {
+            let mut row = vec![
                 Cell::Words(label.clone()),
                 Cell::Number(*height),
                 Cell::Number(*along),
-            ]);
+            ];
+            row.extend(band.as_ref().map(|band| Cell::Number(band.half[index])));
+            table.rows.push(row);
         }
     }
     Ok(table)

@@ -4,6 +4,7 @@ use super::super::axis::Scale;
 use super::super::canvas::Area;
 use super::super::panel::{Axis, Panel};
 use super::lines::{self, Line};
+use super::replicates::deviation_of;
 use super::{Cell, Material, Plate, Table, cited};
 use crate::report::numbers::Measured;
 use crate::report::{ReportError, format, selection};
@@ -37,10 +38,13 @@ pub fn draw(
         },
         Axis {
             title: format!("{quantity}{}", value.in_brackets()),
-            scale: Scale::linear(all().flat_map(|line| line.y.iter().map(|y| y * value.factor))),
+            scale: Scale::linear(all().flat_map(|line| line.all_y().into_iter().map(|y| y * value.factor))),
         },
     );
     let factors = (time.factor, value.factor);
+    for line in &drawn {
+        lines::shade(&mut panel, line, factors);
+    }
     for line in all() {
         lines::draw(&mut panel, line, factors);
     }
@@ -111,6 +115,9 @@ fn start_inset<'a, I: Iterator<Item = &'a Line>>(
     let up = Scale::linear(shown.map(|(_, y)| y * factors.1)).with_at_most(6);
     let across = Scale::tight([0.0, window]).with_at_most(5);
     panel.inset(plot, across, up, |inner| {
+        for line in drawn {
+            lines::shade(inner, line, factors);
+        }
         for line in all() {
             lines::draw(inner, line, factors);
         }
@@ -148,6 +155,13 @@ fn series<'a>(run: &'a Run, of: &str) -> Result<(&'a Column, &'a Column), Report
     })
 }
 
+/// The scatter over seeds of a mean.
+fn scatter(run: &Run, of: &str) -> Option<lines::Band> {
+    let column = run.table(TABLE)?.column(&deviation_of(of))?;
+    let half = column.values.clone();
+    Some(lines::Band { half, across: false })
+}
+
 fn computed(
     material: &Material,
     of: &[String],
@@ -168,12 +182,14 @@ fn computed(
             }
             let (style, opacity, markers) = looks[index + place * material.runs.len()];
             let (x, y) = (time.values.clone(), column.values.clone());
+            let band = scatter(run, quantity);
             drawn.push(Line {
                 x,
                 y,
                 style,
                 opacity,
                 markers,
+                band,
             });
         }
     }
@@ -204,6 +220,7 @@ fn references(material: &Material, against: Option<&str>) -> Result<Vec<(Line, S
                 style,
                 opacity: 1.0,
                 markers: None,
+                band: None,
             };
             found.push((line, curve.source));
         }
@@ -225,6 +242,7 @@ fn measured(points: Measured, times: &[f64], found: &mut Vec<(Line, String)>) {
         style: lines::reference_style(),
         opacity: 1.0,
         markers: None,
+        band: None,
     };
     found.push((line, points.source));
 }
@@ -243,17 +261,23 @@ fn table(
 ) -> Result<Table, ReportError> {
     let mut head = vec!["run".to_owned(), "time [s]".to_owned()];
     head.extend(of.iter().map(|name| format!("{name} [{unit}]")));
+    let means = material.runs.iter().any(|run| scatter(run, &of[0]).is_some());
+    if means {
+        head.extend(of.iter().map(|name| format!("{} [{unit}]", deviation_of(name))));
+    }
+    let computed = head.len() - 2;
     head.extend(against.map(|name| format!("{name} [{unit}]")));
     let mut rows = Vec::new();
     for run in &material.runs {
         let times = times(run)?;
         let columns = of.iter().map(|name| Ok(&series(run, name)?.1.values));
         let columns = columns.collect::<Result<Vec<_>, ReportError>>()?;
+        let scatters: Vec<_> = of.iter().map(|name| scatter(run, name)).collect();
         let label = selection::label(material.study, run);
         let mut reference = None;
         if let Some(name) = against {
             match (material.numbers.points)(run, name).map_err(ReportError)? {
-                Some(points) => rows.extend(own_rows(&points, &label, of.len())),
+                Some(points) => rows.extend(own_rows(&points, &label, computed)),
                 None => {
                     let curve = (material.numbers.curve)(run, name, &times).map_err(ReportError)?;
                     reference = Some(curve);
@@ -267,6 +291,13 @@ fn table(
                     .iter()
                     .map(|column| Cell::from(column.get(index).copied())),
             );
+            if means {
+                let scatter = scatters.iter();
+                row.extend(
+                    scatter
+                        .map(|band| Cell::from(band.as_ref().and_then(|band| band.half.get(index).copied()))),
+                );
+            }
             row.extend(against.map(|_| {
                 let values = reference.as_ref().map(|curve| &curve.values);
                 Cell::from(values.and_then(|values| values.get(index).copied()))
@@ -278,11 +309,11 @@ fn table(
 }
 
 /// Measured points stand at their own times, in rows without a computed value.
-fn own_rows(points: &Measured, label: &str, quantities: usize) -> Vec<Vec<Cell>> {
+fn own_rows(points: &Measured, label: &str, computed: usize) -> Vec<Vec<Cell>> {
     let pairs = points.times.iter().zip(&points.values);
     let row = |(time, value): (&f64, &f64)| {
         let mut row = vec![Cell::Words(label.to_owned()), Cell::Number(*time)];
-        row.extend(vec![Cell::Empty; quantities]);
+        row.extend(vec![Cell::Empty; computed]);
         row.push(Cell::Number(*value));
         row
     };

@@ -195,19 +195,19 @@ impl SlipLimitSpec {
 }
 
 impl TangentialSpec {
-    fn none() -> Self {
+    pub(super) fn none() -> Self {
         TangentialSpec::None
     }
 }
 
 impl RollingSpec {
-    fn none() -> Self {
+    pub(super) fn none() -> Self {
         RollingSpec::None
     }
 }
 
 impl IntegratorSpec {
-    fn verlet() -> Self {
+    pub(super) fn verlet() -> Self {
         IntegratorSpec::VelocityVerlet
     }
 }
@@ -224,6 +224,6 @@ fn one_per_cent() -> Fraction {
     Fraction(0.01)
 }
 
-fn automatic() -> TimeStepSpec {
+pub(super) fn automatic() -> TimeStepSpec {
     TimeStepSpec::Automatic
 }

@@ -4,6 +4,7 @@
 pub mod collision;
 pub mod quantity;
 pub mod scene;
+pub mod sedimentation;
 pub mod statement;
 
 use std::collections::BTreeMap;

@@ -116,6 +116,16 @@ quantity!(
     Dimension::DAMPING
 );
 quantity!(
+    /// [J]
+    Energy,
+    Dimension::ENERGY
+);
+quantity!(
+    /// [C]
+    Charge,
+    Dimension::CHARGE
+);
+quantity!(
     /// Dimensionless; `1 %` is 0.01.
     Fraction,
     Dimension::NONE
@@ -170,6 +180,7 @@ quantity_or_word!(
 );
 quantity_or_word!(TimeStepSpec, Dimension::TIME, Automatic = "automatic");
 quantity_or_word!(StiffnessSpec, Dimension::STIFFNESS, Automatic = "automatic");
+quantity_or_word!(SkinSpec, Dimension::NONE, Automatic = "automatic");
 quantity_or_word!(CoefficientSpec, Dimension::NONE, None = "none");
 
 /// A quantity of any dimension, compared with an observable's own later.

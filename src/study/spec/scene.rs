@@ -8,6 +8,7 @@ use super::quantity::{
     Acceleration, CoefficientSpec, Density, Fraction, Length, SoundSpeedSpec, StiffnessSpec, Time,
     TimeStepSpec, Viscosity,
 };
+use super::sedimentation::SedimentationSpec;
 
 /// A scene: its name with its fields.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
@@ -19,6 +20,8 @@ pub enum SceneSpec {
     ConstantPorosityBlock(BlockSpec),
     /// A grain meets another one or a flat wall: contact laws and integrators on their own.
     BinaryCollision(CollisionSpec),
+    /// Many grains settle through a fluid onto the floor of a box and form a bed.
+    Sedimentation(SedimentationSpec),
     /// No physics: returns a known series, to try out plans, stores, verdicts and reports.
     Rehearsal(RehearsalSpec),
 }
@@ -259,6 +262,8 @@ pub struct RehearsalSpec {
     pub scale: Fraction,
     pub order: Fraction,
     pub error: Fraction,
+    /// Grains in the snapshots; 0 for no snapshots.
+    pub grains: u32,
     /// Real time to spend.
     pub delay: Time,
     pub ending: EndingSpec,
@@ -274,6 +279,7 @@ impl Default for RehearsalSpec {
             scale: Fraction(1.0),
             order: Fraction(1.0),
             error: Fraction(0.0),
+            grains: 0,
             delay: Time(0.0),
             ending: EndingSpec::Completes,
         }
@@ -305,6 +311,6 @@ fn release_height() -> Fraction {
 }
 
 /// Standard gravity as both theses round it.
-fn gravity() -> Acceleration {
+pub(super) fn gravity() -> Acceleration {
     Acceleration(9.81)
 }

@@ -1,10 +1,12 @@
 //! Expectations and figures as a study file writes them.
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::Where;
-use super::quantity::{AnyQuantity, Fraction, OneOrMore};
+use super::quantity::{AnyQuantity, Fraction, OneOrMore, Scalar, Time};
 
 /// A statement that is expected to hold: its kind with its fields.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -18,6 +20,8 @@ pub enum ExpectationSpec {
     Order(OrderSpec),
     /// A scalar rises or falls along an axis.
     Monotone(MonotoneSpec),
+    /// A scalar of some points is greater than, less than or equal to that of others.
+    Compare(CompareSpec),
 }
 
 /// What every expectation may carry.
@@ -92,8 +96,38 @@ pub struct MonotoneSpec {
     pub over: String,
     /// True for rising, false for falling.
     pub rising: bool,
+    /// Lets a step against the trend pass that is smaller than twice its standard error over seeds.
+    #[serde(default)]
+    pub within_noise: bool,
     #[serde(flatten)]
     pub common: Common,
+}
+
+/// How the scalar of the first selection lies to that of the second, everything else equal.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct CompareSpec {
+    pub of: String,
+    /// Two selections, each written like `where`.
+    #[expect(dead_code, reason = "read from the tree, where values have positions")]
+    pub between: Vec<Where>,
+    pub is: RelationSpec,
+    /// Least difference of `greater` and `less`, as a share of the second value.
+    pub by: Option<Fraction>,
+    /// Largest difference of `equal`, as a share of the second value.
+    pub within: Option<Fraction>,
+    /// Lets `equal` differ by twice the standard error of the difference over seeds.
+    #[serde(default)]
+    pub within_noise: bool,
+    #[serde(flatten)]
+    pub common: Common,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum RelationSpec {
+    Greater,
+    Less,
+    Equal,
 }
 
 /// A figure: its kind with its fields.
@@ -108,6 +142,10 @@ pub enum FigureSpec {
     RunTimeAgainstError(RunTimeAgainstErrorSpec),
     /// A profile, one line per run.
     Profile(ProfileSpec),
+    /// A scalar over an axis, mean over seeds, references beside.
+    Response(ResponseSpec),
+    /// Pictures of the grains of one point, coloured by speed.
+    Snapshots(SnapshotsSpec),
 }
 
 /// What every figure may carry.
@@ -158,6 +196,59 @@ pub struct RunTimeAgainstErrorSpec {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 pub struct ProfileSpec {
     pub of: String,
+    #[serde(flatten)]
+    pub caption: Caption,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct ResponseSpec {
+    pub of: String,
+    /// Axis along which it is drawn.
+    pub over: String,
+    /// References and published data to draw beside.
+    #[serde(default)]
+    pub against: Vec<BesideSpec>,
+    #[serde(flatten)]
+    pub caption: Caption,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum BesideSpec {
+    /// A reference by name, at each point's own settings.
+    Reference(ReferenceSpec),
+    /// Two columns of a table in the folder `references`.
+    Data(DataSpec),
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct ReferenceSpec {
+    pub name: String,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct DataSpec {
+    /// Name of a file in the folder `references`.
+    pub file: String,
+    /// Column of the axis.
+    pub x: String,
+    /// Column of the scalar.
+    pub y: String,
+    /// Unit of the column, where it is not in SI units.
+    pub x_unit: Option<String>,
+    /// Unit of the column, where it is not in SI units.
+    pub y_unit: Option<String>,
+    /// Rows to take: columns with the text they hold.
+    #[serde(default)]
+    pub rows: BTreeMap<String, Scalar>,
+    /// Its name in the legend.
+    pub label: Option<String>,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct SnapshotsSpec {
+    /// One panel each: the kept instant nearest to it.
+    pub times: OneOrMore<Time>,
     #[serde(flatten)]
     pub caption: Caption,
 }

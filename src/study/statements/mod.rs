@@ -1,6 +1,8 @@
 //! Expectations, figures and observables: their names resolved, their selections checked.
 
 mod band;
+mod beside;
+mod comparison;
 mod named;
 mod selection;
 
@@ -12,13 +14,18 @@ use serde_json::Value as Schema;
 pub use selection::admitted;
 
 use super::axes::WrittenAxis;
-use super::model::{Check, Expectation, Figure, FigureKind, Plan, Work};
+use super::model::{Check, Comparison, Expectation, Figure, FigureKind, Plan, Work};
 use super::names::observables;
 use super::nearest::advice;
 use super::problem::Problems;
 use super::shape::{Place, Shapes};
 use super::spec::statement::{Caption, Common, ExpectationSpec, FigureSpec};
 use super::yaml::{Key, Node, Value};
+
+/// The table in which scenes keep their grains.
+const SNAPSHOTS: &str = "snapshots";
+/// Panels that one figure has room for.
+const MOST_PANELS: usize = 8;
 
 /// What statements may refer to.
 pub struct Context<'a> {
@@ -178,17 +185,20 @@ pub fn observe(
         Check::Value { of, .. }
         | Check::Error { of, .. }
         | Check::Order { of, .. }
-        | Check::Monotone { of, .. } => of,
+        | Check::Monotone { of, .. }
+        | Check::Compare(Comparison { of, .. }) => of,
     });
     let of_figures = figures.iter().flat_map(|figure| match &figure.kind {
-        FigureKind::TimeSeries { of, .. } => of.iter().collect::<Vec<_>>(),
+        FigureKind::TimeSeries { of, .. } => of.clone(),
         FigureKind::ErrorAgainstResolution { of, .. }
         | FigureKind::RunTimeAgainstError { of, .. }
-        | FigureKind::Profile { of, .. } => vec![of],
+        | FigureKind::Response { of, .. }
+        | FigureKind::Profile { of, .. } => vec![of.clone()],
+        FigureKind::Snapshots { .. } => vec![SNAPSHOTS.to_owned()],
     });
-    for name in of_checks.chain(of_figures) {
-        if !observe.contains(name) {
-            observe.push(name.clone());
+    for name in of_checks.cloned().chain(of_figures) {
+        if !observe.contains(&name) {
+            observe.push(name);
         }
     }
     observe
@@ -274,8 +284,14 @@ impl Reader<'_, '_> {
                         of: spec.of,
                         over: spec.over,
                         rising: spec.rising,
+                        within_noise: spec.within_noise,
                     },
                 )
+            }
+            ExpectationSpec::Compare(spec) => {
+                self.observable("of", &spec.of, &[Scalar]);
+                let comparison = self.comparison(&spec);
+                (spec.common, Check::Compare(comparison))
             }
         };
         (
@@ -340,6 +356,33 @@ impl Reader<'_, '_> {
                 self.observable("of", &spec.of, &[Profile]);
                 let group = spec.caption.group.clone();
                 (spec.caption, FigureKind::Profile { of: spec.of, group })
+            }
+            FigureSpec::Response(spec) => {
+                let unit = self.observable("of", &spec.of, &[Scalar]);
+                self.numeric_axis(&spec.over);
+                let against = self.beside(&spec, unit);
+                let group = spec.caption.group.clone();
+                let (of, over) = (spec.of, spec.over);
+                (
+                    spec.caption,
+                    FigureKind::Response {
+                        of,
+                        over,
+                        group,
+                        against,
+                    },
+                )
+            }
+            FigureSpec::Snapshots(spec) => {
+                self.observable("snapshots", SNAPSHOTS, &[Profile]);
+                self.one_point();
+                let times: Vec<f64> = spec.times.0.iter().map(|time| time.0).collect();
+                self.instants(&times);
+                if spec.caption.group.is_some() {
+                    let message = "`group` does not go with pictures of one point";
+                    self.fault("group", message, "leave it out");
+                }
+                return (spec.caption, FigureKind::Snapshots { times });
             }
         };
         if let Some(group) = &caption.group {

@@ -58,7 +58,10 @@ impl Reader<'_, '_> {
                 .filter(|observable| kinds.contains(&observable.kind))
                 .map(|observable| observable.name),
         );
-        match offered.iter().find(|observable| observable.name == name) {
+        // A name may be a number and a series too.
+        let named = || offered.iter().filter(|observable| observable.name == name);
+        let fitting = named().find(|observable| kinds.contains(&observable.kind));
+        match fitting.or_else(|| named().next()) {
             Some(found) if kinds.contains(&found.kind) => {
                 if found.unit == "1" {
                     return Some(Dimension::NONE);
@@ -106,30 +109,30 @@ impl Reader<'_, '_> {
     pub(super) fn reference(&mut self, name: &str, of: Option<&String>) {
         let works = self.context.works.values();
         let offered: Vec<Observable> = works.flat_map(observables).collect();
-        let found = of.and_then(|of| offered.iter().find(|observable| observable.name == of));
-        let kind = found.map(|found| found.kind);
+        let found = || offered.iter().filter(|found| of.is_some_and(|of| found.name == of));
+        let kinds: Vec<ObservableKind> = found().map(|found| found.kind).collect();
         let other_dimension = |name: &str| {
             let data = published().iter().find(|entry| entry.name == name);
-            data.zip(found)
+            data.zip(found().next())
                 .is_some_and(|(data, found)| comparable(found.unit, &data.unit).is_err())
         };
         let all = references();
         let fitting: Vec<&str> = all
             .iter()
-            .filter(|(name, is)| kind.is_none_or(|kind| kind == *is) && !other_dimension(name))
+            .filter(|(name, is)| (kinds.is_empty() || kinds.contains(is)) && !other_dimension(name))
             .map(|(name, _)| *name)
             .collect();
-        match (all.iter().find(|(known, _)| *known == name), kind) {
+        match (all.iter().find(|(known, _)| *known == name), kinds.first()) {
             (None, _) => self.fault(
                 "against",
                 format!("there is no reference `{name}`"),
                 advice(name, &fitting),
             ),
-            (Some((_, is)), Some(kind)) if *is != kind && kind != ObservableKind::Profile => {
+            (Some((_, is)), Some(kind)) if !kinds.contains(is) && *kind != ObservableKind::Profile => {
                 let message = format!(
                     "the reference `{name}` is {}, the observable is {}",
                     kind_name(*is),
-                    kind_name(kind)
+                    kind_name(*kind)
                 );
                 self.fault("against", message, format!("known: {}", fitting.join(", ")));
             }

@@ -51,13 +51,36 @@ fn any_dimension(node: &Node) -> Option<Dimension> {
 impl Reader<'_, '_> {
     /// Reads `where`.
     pub(super) fn selection(&mut self) -> Selection {
-        let mut selection = Selection::default();
-        let Some(node) = self.written.fields.get("where").filter(|_| self.context.complete) else {
-            return selection;
+        let Some(node) = self.written.fields.get("where") else {
+            return Selection::default();
         };
         let before = self.problems.len();
+        let selection = self.selection_in(node, "where");
+        if self.problems.len() == before && !self.selects(&[&selection]) {
+            self.fault(
+                "where",
+                "this selects no point of the plan",
+                "drop one of its conditions",
+            );
+        }
+        selection
+    }
+
+    /// Whether some point of the plan is admitted by all of these; true as long as there is no plan.
+    pub(super) fn selects(&self, selections: &[&Selection]) -> bool {
+        let points = &self.context.plan.points;
+        let admitted = |point| selections.iter().all(|selection| selection.admits(point));
+        points.is_empty() || points.iter().any(admitted)
+    }
+
+    /// Reads a map of conditions.
+    pub(super) fn selection_in(&mut self, node: &Node, place: &str) -> Selection {
+        let mut selection = Selection::default();
+        if !self.context.complete {
+            return selection;
+        }
         for (key, node) in node.entries() {
-            let field = format!("{}.where.{}", self.written.path, key.name);
+            let field = format!("{}.{place}.{}", self.written.path, key.name);
             if key.name == "scene" {
                 let scenes = self.context.works.keys();
                 let scenes: Vec<AxisValue> = scenes.map(|name| AxisValue::Word(name.clone())).collect();
@@ -81,17 +104,6 @@ impl Reader<'_, '_> {
             };
             let values = admitted(node, dimension, &known, &field, self.problems);
             selection.axes.push((key.name.clone(), values));
-        }
-        let points = &self.context.plan.points;
-        if self.problems.len() == before
-            && !points.is_empty()
-            && !points.iter().any(|point| selection.admits(point))
-        {
-            self.fault(
-                "where",
-                "this selects no point of the plan",
-                "drop one of its conditions",
-            );
         }
         selection
     }

@@ -20,18 +20,8 @@ pub fn collision(spec: &CollisionSpec) -> BinaryCollision {
         spin: spec.spin.0,
         normal: normal(&spec.normal),
         tangential: tangential(&spec.tangential),
-        rolling: match &spec.rolling {
-            RollingSpec::None => Rolling::None,
-            RollingSpec::Resistance(law) => Rolling::Resistance(RollingResistance {
-                friction: law.friction.0,
-            }),
-        },
-        integrator: match spec.integrator {
-            IntegratorSpec::VelocityVerlet => IntegratorChoice::VelocityVerlet,
-            IntegratorSpec::Gear5 => IntegratorChoice::Gear5,
-            IntegratorSpec::Gear6 => IntegratorChoice::Gear6,
-            IntegratorSpec::RungeKutta4 => IntegratorChoice::RungeKutta4,
-        },
+        rolling: rolling(&spec.rolling),
+        integrator: integrator(spec.integrator),
         time_step_over_contact_time: spec.time_step_over_contact_time.0,
         time_step: match spec.time_step {
             TimeStepSpec::Automatic => None,
@@ -41,7 +31,7 @@ pub fn collision(spec: &CollisionSpec) -> BinaryCollision {
     }
 }
 
-fn normal(spec: &NormalSpec) -> Normal {
+pub(super) fn normal(spec: &NormalSpec) -> Normal {
     let material = |young: Pressure, poisson: Fraction| Material {
         young_modulus: young.0,
         poisson_ratio: poisson.0,
@@ -70,7 +60,7 @@ fn normal(spec: &NormalSpec) -> Normal {
     }
 }
 
-fn tangential(spec: &TangentialSpec) -> Tangential {
+pub(super) fn tangential(spec: &TangentialSpec) -> Tangential {
     match spec {
         TangentialSpec::None => Tangential::None,
         TangentialSpec::HaffWerner(law) => Tangential::HaffWerner(HaffWerner {
@@ -90,5 +80,23 @@ fn tangential(spec: &TangentialSpec) -> Tangential {
                 SlipLimitSpec::Literal => SlipLimit::Literal,
             },
         }),
+    }
+}
+
+pub(super) fn rolling(spec: &RollingSpec) -> Rolling {
+    match spec {
+        RollingSpec::None => Rolling::None,
+        RollingSpec::Resistance(law) => Rolling::Resistance(RollingResistance {
+            friction: law.friction.0,
+        }),
+    }
+}
+
+pub(super) fn integrator(spec: IntegratorSpec) -> IntegratorChoice {
+    match spec {
+        IntegratorSpec::VelocityVerlet => IntegratorChoice::VelocityVerlet,
+        IntegratorSpec::Gear5 => IntegratorChoice::Gear5,
+        IntegratorSpec::Gear6 => IntegratorChoice::Gear6,
+        IntegratorSpec::RungeKutta4 => IntegratorChoice::RungeKutta4,
     }
 }

@@ -1,6 +1,7 @@
 //! From the written scene to the plain data that runs.
 
 mod collision;
+mod sedimentation;
 
 use kynch_sim::scene::{
     Column, ConstantPorosityBlock, Coupling, Drag, Fluid, Grains, Hydrostatics, KernelChoice, Medium,
@@ -8,6 +9,7 @@ use kynch_sim::scene::{
     Start, StressDensity,
 };
 
+use super::faults::{Fault, faults};
 use super::model::{Rehearsal, RehearsalEnding, Work};
 use super::spec::quantity::{CoefficientSpec, SoundSpeedSpec, StiffnessSpec, TimeStepSpec};
 use super::spec::scene::*;
@@ -82,7 +84,25 @@ pub fn work(spec: &SceneSpec) -> Work {
         SceneSpec::BinaryCollision(spec) => {
             Work::Simulation(Scene::BinaryCollision(collision::collision(spec)))
         }
+        SceneSpec::Sedimentation(spec) => {
+            Work::Simulation(Scene::Sedimentation(sedimentation::sedimentation(spec)))
+        }
         SceneSpec::Rehearsal(rehearsal) => Work::Rehearsal(rehearsed(rehearsal)),
+    }
+}
+
+/// Everything that keeps a scene from running, as it is written. Expects a [`completed`] one.
+pub fn refusals(spec: &SceneSpec, work: &Work) -> Vec<Fault> {
+    match spec {
+        SceneSpec::Sedimentation(spec) => {
+            let contradictions = sedimentation::contradictions(spec);
+            if !contradictions.is_empty() {
+                return contradictions;
+            }
+            let found = faults(work).into_iter();
+            found.map(|fault| sedimentation::placed(spec, fault)).collect()
+        }
+        _ => faults(work),
     }
 }
 
@@ -95,6 +115,7 @@ fn rehearsed(spec: &RehearsalSpec) -> Rehearsal {
         scale: spec.scale.0,
         order: spec.order.0,
         error: spec.error.0,
+        grains: spec.grains,
         delay: spec.delay.0,
         ending: match spec.ending {
             EndingSpec::Completes => RehearsalEnding::Completes,
@@ -129,10 +150,6 @@ fn drag(spec: DragSpec) -> Drag {
 }
 
 fn fluid(spec: &FluidSpec) -> Fluid {
-    let medium = |medium: &MediumSpec| Medium {
-        density: medium.density.0,
-        viscosity: medium.viscosity.0,
-    };
     match spec {
         FluidSpec::Still(still) => Fluid::Still(medium(still)),
         FluidSpec::Column(column) => Fluid::Column(medium(column)),
@@ -144,6 +161,13 @@ fn fluid(spec: &FluidSpec) -> Fluid {
             spacing_over_diameter: sph.spacing_over_diameter.0,
             scheme: scheme(&sph.scheme),
         }),
+    }
+}
+
+fn medium(spec: &MediumSpec) -> Medium {
+    Medium {
+        density: spec.density.0,
+        viscosity: spec.viscosity.0,
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use crate::math::Number;
+
 /// A homogeneous sphere, or a flat wall that never moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Body {
@@ -36,8 +38,50 @@ impl Body {
     }
 }
 
+/// What a contact law needs of the masses and sizes of two bodies together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Couple<N = f64> {
+    /// m* = m_i m_j/(m_i + m_j) [kg]; the grain's own mass at a wall.
+    pub reduced_mass: N,
+    /// (m_i + m_j)/2 [kg]; the grain's own mass at a wall.
+    pub mean_mass: N,
+    /// R* = R_i R_j/(R_i + R_j) [m]; the grain's own radius at a wall.
+    pub reduced_radius: N,
+    /// I* = I_i I_j/(I_i + I_j) [kg m²]; the grain's own inertia at a wall.
+    pub reduced_inertia: N,
+    /// Radius of the smaller body [m]: the one radius of the pair's rolling resistance.
+    pub smaller_radius: N,
+}
+
+impl Couple {
+    pub fn new(a: &Body, b: &Body) -> Couple {
+        Couple {
+            reduced_mass: reduced(a.mass, b.mass),
+            mean_mass: if b.is_wall() {
+                a.mass
+            } else {
+                0.5 * (a.mass + b.mass)
+            },
+            reduced_radius: reduced(a.radius, b.radius),
+            reduced_inertia: reduced(a.inertia, b.inertia),
+            smaller_radius: a.radius.min(b.radius),
+        }
+    }
+
+    /// The same in every lane.
+    pub fn splat<N: Number>(&self) -> Couple<N> {
+        Couple {
+            reduced_mass: N::splat(self.reduced_mass),
+            mean_mass: N::splat(self.mean_mass),
+            reduced_radius: N::splat(self.reduced_radius),
+            reduced_inertia: N::splat(self.reduced_inertia),
+            smaller_radius: N::splat(self.smaller_radius),
+        }
+    }
+}
+
 /// a b/(a + b), which is a for an infinite b.
-pub(super) fn reduced(a: f64, b: f64) -> f64 {
+fn reduced(a: f64, b: f64) -> f64 {
     1.0 / (1.0 / a + 1.0 / b)
 }
 

@@ -9,33 +9,33 @@
 //! lets the torque vanish with ω, so that a resting grain is not shaken. Source: Alvim (2016), eq. 25;
 //! Zhou et al. (1999), Physica A 269, 536–553.
 
-use crate::math::Vec3;
+use crate::math::{Number, Vector};
 
 /// What a rolling law sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rolling {
+pub struct Rolling<N = f64> {
     /// Angular velocity of the first body over the second [rad/s], perpendicular to the normal.
-    pub velocity: Vec3,
+    pub velocity: Vector<N>,
     /// Normal force [N], never below zero.
-    pub normal_force: f64,
+    pub normal_force: N,
     /// Radius of the smaller body [m].
-    pub radius: f64,
+    pub radius: N,
     /// I* [kg m²].
-    pub reduced_inertia: f64,
+    pub reduced_inertia: N,
     /// Step over which the torque will act [s].
     pub time_step: f64,
 }
 
 pub trait RollingLaw: Copy {
     /// Torque on the first body [N m]; the second gets the opposite.
-    fn torque(&self, rolling: &Rolling) -> Vec3;
+    fn torque<N: Number>(&self, rolling: &Rolling<N>) -> Vector<N>;
 }
 
 /// No resistance.
 impl RollingLaw for () {
-    #[inline]
-    fn torque(&self, _: &Rolling) -> Vec3 {
-        Vec3::zeros()
+    #[inline(always)]
+    fn torque<N: Number>(&self, _: &Rolling<N>) -> Vector<N> {
+        Vector::zeros()
     }
 }
 
@@ -46,15 +46,15 @@ pub struct RollingResistance {
 }
 
 impl RollingLaw for RollingResistance {
-    #[inline]
-    fn torque(&self, rolling: &Rolling) -> Vec3 {
+    #[inline(always)]
+    fn torque<N: Number>(&self, rolling: &Rolling<N>) -> Vector<N> {
         let speed = rolling.velocity.norm();
-        if speed == 0.0 {
-            return Vec3::zeros();
-        }
-        let stop = rolling.reduced_inertia * speed / rolling.time_step;
-        let torque = (self.friction * rolling.radius * rolling.normal_force).min(stop);
-        rolling.velocity * (-torque / speed)
+        let zero = N::splat(0.0);
+        // Torque per angular velocity: the least of resistance and what stops the rolling.
+        let resistance = N::splat(self.friction) * rolling.radius * rolling.normal_force / speed;
+        let stop = rolling.reduced_inertia * N::splat(1.0 / rolling.time_step);
+        let resistance = N::select(zero.below(speed), resistance.min(stop), zero);
+        rolling.velocity * (zero - resistance)
     }
 }
 
@@ -66,7 +66,7 @@ mod tests {
     fn the_torque_opposes_rolling_and_stops_it_at_most() {
         for speed in [1e-9, 1e-3, 1.0, 1e3] {
             let rolling = Rolling {
-                velocity: Vec3::new(0.0, 0.6, -0.8) * speed,
+                velocity: Vector::new(0.0, 0.6, -0.8) * speed,
                 normal_force: 1e-3,
                 radius: 1e-4,
                 reduced_inertia: 1e-16,

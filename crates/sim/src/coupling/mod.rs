@@ -5,6 +5,8 @@ mod disturbance;
 mod exchange;
 mod grain_porosity;
 mod layers;
+pub mod permeability;
+pub mod slices;
 mod weights;
 
 pub use breathing::Breathing;
@@ -12,4 +14,5 @@ pub use disturbance::{Basin, SelfInducedFlow};
 pub use exchange::{Exchange, Field};
 pub use grain_porosity::grain_porosity;
 pub use layers::Layers;
+pub use slices::Slices;
 pub use weights::Weights;

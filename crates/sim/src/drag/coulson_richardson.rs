@@ -10,6 +10,8 @@
 //! Source: Coulson & Richardson (1993), vol. 2; Raso (2014) eq. 2.75 with the slip vector restored.
 
 use super::DragLaw;
+use crate::math::Number;
+use crate::math::elementary::power;
 
 /// Reynolds number under which the factor is held.
 const REYNOLDS_FLOOR: f64 = 1e-3;
@@ -18,10 +20,12 @@ const REYNOLDS_FLOOR: f64 = 1e-3;
 pub struct CoulsonRichardson;
 
 impl DragLaw for CoulsonRichardson {
-    #[inline]
-    fn factor(&self, re: f64, _porosity: f64) -> f64 {
-        let re = re.max(REYNOLDS_FLOOR);
-        re / 12.0 * (1.84 * re.powf(-0.31) + 0.293 * re.powf(0.06)).powf(3.45)
+    #[inline(always)]
+    fn factor<N: Number>(&self, re: N, _porosity: N) -> N {
+        let re = N::splat(REYNOLDS_FLOOR).max(re);
+        let bracket =
+            N::splat(1.84) * power(re, N::splat(-0.31)) + N::splat(0.293) * power(re, N::splat(0.06));
+        re / N::splat(12.0) * power(bracket, N::splat(3.45))
     }
 }
 

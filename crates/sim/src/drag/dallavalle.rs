@@ -7,15 +7,16 @@
 //! Source: Dallavalle (1948), Micromeritics, 2nd ed.
 
 use super::DragLaw;
+use crate::math::Number;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Dallavalle;
 
 impl DragLaw for Dallavalle {
-    #[inline]
-    fn factor(&self, re: f64, _porosity: f64) -> f64 {
-        let root = 0.63 * re.sqrt() + 4.8;
-        root * root / 24.0
+    #[inline(always)]
+    fn factor<N: Number>(&self, re: N, _porosity: N) -> N {
+        let root = N::splat(0.63) * re.sqrt() + N::splat(4.8);
+        root * root / N::splat(24.0)
     }
 }
 

@@ -1,22 +1,22 @@
-//! Di Felice drag in a suspension: Dallavalle drag of the superficial slip times ε^−χ.
-//!
-//! ```text
-//! χ = 3.7 − 0.65 exp(−(1.5 − log10 Re)² / 2)
-//! ```
+//! Di Felice drag in a suspension: Dallavalle drag of the superficial slip times the voidage function
+//! [`voidage::DiFelice`].
 //!
 //! Source: Di Felice (1994), Int. J. Multiphase Flow 20, 153–159.
 
-use super::{Dallavalle, DragLaw};
+use super::{Dallavalle, DragLaw, Hindered, voidage};
+use crate::math::Number;
 
 #[derive(Clone, Copy, Debug)]
 pub struct DiFelice;
 
 impl DragLaw for DiFelice {
-    #[inline]
-    fn factor(&self, re: f64, porosity: f64) -> f64 {
-        let distance = 1.5 - re.log10();
-        let chi = 3.7 - 0.65 * (-0.5 * distance * distance).exp();
-        Dallavalle.factor(re, porosity) * porosity.powf(-chi)
+    #[inline(always)]
+    fn factor<N: Number>(&self, re: N, porosity: N) -> N {
+        let law = Hindered {
+            sphere: Dallavalle,
+            voidage: voidage::DiFelice,
+        };
+        law.factor(re, porosity)
     }
 }
 

@@ -9,24 +9,54 @@
 //! This is the drag of model A, which leaves the pressure gradient force apart; model B
 //! divides it by ε and uses the buoyancy of the pure fluid.
 
+mod any;
 mod coulson_richardson;
 mod dallavalle;
 mod di_felice;
+pub mod lift;
 mod schiller_naumann;
 mod stokes;
+pub mod voidage;
 
+pub use any::{AnyDrag, AnyVoidage, SphereDrag};
 pub use coulson_richardson::CoulsonRichardson;
 pub use dallavalle::Dallavalle;
 pub use di_felice::DiFelice;
+pub use lift::{LiftLaw, Magnus, Saffman, Whirl};
 pub use schiller_naumann::SchillerNaumann;
 pub use stokes::Stokes;
+pub use voidage::{Hindered, VoidageLaw};
 
 use std::f64::consts::PI;
+
+use crate::math::Number;
 
 /// A drag law: parameters in, numbers out.
 pub trait DragLaw: Copy {
     /// Drag over Stokes drag at Reynolds number `re` [-] and porosity `porosity` [-].
-    fn factor(&self, re: f64, porosity: f64) -> f64;
+    fn factor<N: Number>(&self, re: N, porosity: N) -> N;
+}
+
+/// No drag at all.
+impl DragLaw for () {
+    #[inline(always)]
+    fn factor<N: Number>(&self, _re: N, _porosity: N) -> N {
+        N::splat(0.0)
+    }
+}
+
+/// Drag per superficial slip β [kg/s] of grains of `diameter` [m] at slip speed `slip` [m/s] in a
+/// fluid of `density` [kg/m³] and `viscosity` [Pa s].
+#[inline(always)]
+pub fn coefficient<N: Number>(
+    law: &impl DragLaw,
+    [density, viscosity]: [f64; 2],
+    diameter: N,
+    slip: N,
+    porosity: N,
+) -> N {
+    let re = N::splat(density) * diameter * slip / N::splat(viscosity);
+    N::splat(3.0 * PI * viscosity) * diameter * law.factor(re, porosity)
 }
 
 /// The fluid and the size a drag coefficient needs.
@@ -49,7 +79,8 @@ impl DragScale {
     /// Drag per superficial slip β [kg/s] at slip speed `slip` [m/s].
     #[inline]
     pub fn coefficient(&self, law: &impl DragLaw, slip: f64, porosity: f64) -> f64 {
-        3.0 * PI * self.viscosity * self.diameter * law.factor(self.reynolds(slip), porosity)
+        let fluid = [self.density, self.viscosity];
+        coefficient(law, fluid, self.diameter, slip, porosity)
     }
 
     /// Superficial slip speed [m/s] at which the drag equals `force` [N].
@@ -66,6 +97,9 @@ impl DragScale {
 #[cfg(test)]
 mod tests {
     use super::*;
+    #[cfg(target_arch = "x86_64")]
+    use crate::neighbours::{Avx2, Avx512};
+    use crate::neighbours::{Plain, Wide};
 
     const WATER: DragScale = DragScale {
         diameter: 1e-4,
@@ -88,5 +122,42 @@ mod tests {
         let weight = PI / 6.0 * 1e-12 * 1500.0 * 9.81;
         let speed = WATER.balance(&DiFelice, 0.9 * weight, 0.9);
         assert!((speed - 4.91237e-3).abs() < 2e-8, "{speed}");
+    }
+
+    fn on_lanes<W: Wide>(law: &impl DragLaw) {
+        for group in 0..64 {
+            let re: [f64; 8] =
+                std::array::from_fn(|lane| (0.05 * f64::from(group * 8 + lane as i32)).powi(3));
+            let porosity: [f64; 8] = std::array::from_fn(|lane| 1.0 - 0.08 * lane as f64);
+            let wide = law.factor(W::from_lanes(re), W::from_lanes(porosity)).lanes();
+            let single: [f64; 8] = std::array::from_fn(|lane| law.factor(re[lane], porosity[lane]));
+            assert_eq!(wide, single);
+        }
+    }
+
+    fn on_all_registers(law: impl DragLaw) {
+        on_lanes::<Plain>(&law);
+        #[cfg(target_arch = "x86_64")]
+        {
+            if is_x86_feature_detected!("avx2") {
+                on_lanes::<Avx2>(&law);
+            }
+            if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
+                on_lanes::<Avx512>(&law);
+            }
+        }
+    }
+
+    #[test]
+    fn eight_grains_side_by_side_drag_as_each_alone() {
+        on_all_registers(Stokes);
+        on_all_registers(Dallavalle);
+        on_all_registers(SchillerNaumann);
+        on_all_registers(CoulsonRichardson);
+        on_all_registers(DiFelice);
+        on_all_registers(Hindered {
+            sphere: SchillerNaumann,
+            voidage: voidage::AlvimLiteral,
+        });
     }
 }

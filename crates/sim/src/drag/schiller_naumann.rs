@@ -9,18 +9,18 @@
 //! The branches differ by 0.4 % at Re = 1000; the step is kept as published.
 
 use super::DragLaw;
+use crate::math::Number;
+use crate::math::elementary::power;
 
 #[derive(Clone, Copy, Debug)]
 pub struct SchillerNaumann;
 
 impl DragLaw for SchillerNaumann {
-    #[inline]
-    fn factor(&self, re: f64, _porosity: f64) -> f64 {
-        if re <= 1000.0 {
-            1.0 + 0.15 * re.powf(0.687)
-        } else {
-            0.44 * re / 24.0
-        }
+    #[inline(always)]
+    fn factor<N: Number>(&self, re: N, _porosity: N) -> N {
+        let newton = N::splat(1000.0).below(re);
+        let viscous = N::splat(1.0) + N::splat(0.15) * power(re, N::splat(0.687));
+        N::select(newton, N::splat(0.44) * re / N::splat(24.0), viscous)
     }
 }
 

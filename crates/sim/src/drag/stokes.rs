@@ -3,13 +3,14 @@
 //! Source: Stokes (1851); valid for Re ≪ 1.
 
 use super::DragLaw;
+use crate::math::Number;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Stokes;
 
 impl DragLaw for Stokes {
-    #[inline]
-    fn factor(&self, _re: f64, _porosity: f64) -> f64 {
-        1.0
+    #[inline(always)]
+    fn factor<N: Number>(&self, _re: N, _porosity: N) -> N {
+        N::splat(1.0)
     }
 }

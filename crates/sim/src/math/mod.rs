@@ -1,8 +1,14 @@
 //! Vectors and the few numbers every room needs.
 
+pub mod elementary;
 mod number;
+mod random;
+mod vector;
 
 pub use number::Number;
+pub(crate) use number::bits;
+pub use random::Random;
+pub use vector::Vector;
 
 /// A vector in SI units.
 pub type Vec3 = nalgebra::Vector3<f64>;

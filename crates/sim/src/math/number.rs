@@ -25,6 +25,12 @@ pub trait Number:
     /// Whether the mask holds in any lane.
     fn any(mask: Self::Mask) -> bool;
 
+    /// A positive number at or above 2.2e-308 as (m, e) with m 2^e, √½ ≤ m < √2, e whole.
+    fn split_exponent(self) -> (Self, Self);
+    /// The number times 2^`exponent`, a whole number from −1022 to 1023; zero at −1023 and infinite
+    /// at 1024.
+    fn scaled_by_power_of_two(self, exponent: Self) -> Self;
+
     /// The number, or zero where it is negative.
     #[inline(always)]
     fn or_zero(self) -> Self {
@@ -38,6 +44,20 @@ pub trait Number:
         let shift = Self::splat(6_755_399_441_055_744.0);
         (self + shift) - shift
     }
+}
+
+/// How a double holds its exponent and mantissa, for those who reach into its bits.
+pub(crate) mod bits {
+    /// Bits of the mantissa.
+    pub const MANTISSA: u64 = (1 << 52) - 1;
+    /// Bits of √½, and how far they are from those of 1: with so much added, the exponent field
+    /// changes at √½ times the powers of two.
+    pub const ROOT_HALF: u64 = 0x3fe6_a09e_667f_3bcd;
+    pub const TO_ONE: u64 = 0x3ff0_0000_0000_0000 - ROOT_HALF;
+    /// Bits of 2⁵²: whole numbers up to there stand in the mantissa as they are.
+    pub const WHOLE: u64 = 0x4330_0000_0000_0000;
+    /// 2⁵² plus what is added to every exponent: 1023.
+    pub const SHIFT: f64 = 4_503_599_627_370_496.0 + 1023.0;
 }
 
 impl Number for f64 {
@@ -77,5 +97,19 @@ impl Number for f64 {
     #[inline(always)]
     fn any(mask: bool) -> bool {
         mask
+    }
+
+    #[inline(always)]
+    fn split_exponent(self) -> (Self, Self) {
+        let all = self.to_bits().wrapping_add(bits::TO_ONE);
+        (
+            f64::from_bits((all & bits::MANTISSA) + bits::ROOT_HALF),
+            f64::from_bits(all >> 52 | bits::WHOLE) - bits::SHIFT,
+        )
+    }
+
+    #[inline(always)]
+    fn scaled_by_power_of_two(self, exponent: Self) -> Self {
+        self * f64::from_bits((exponent + bits::SHIFT).to_bits() << 52)
     }
 }

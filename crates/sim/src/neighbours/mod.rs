@@ -2,12 +2,14 @@
 //! particles beyond a periodic side so that no sum ever wraps a distance.
 
 mod cells;
+mod near_pairs;
 mod rows;
 mod wide;
 
 pub use cells::CellGrid;
+pub use near_pairs::{Period, Search, visit_near_pairs};
 pub use rows::{Image, LANES, Rows, images};
 pub use wide::Record;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use wide::{Avx2, Avx512};
-pub(crate) use wide::{Plain, Wide};
+pub(crate) use wide::{Plain, Wide, WideWork, in_widest};

@@ -7,6 +7,8 @@ use std::ops::{Add, Div, Mul, Sub};
 
 use super::LANES;
 use crate::math::Number;
+#[cfg(target_arch = "x86_64")]
+use crate::math::bits;
 
 /// Eight numbers of a particle, one cache line.
 #[derive(Clone, Copy, Debug, Default)]
@@ -95,6 +97,21 @@ impl Number for Plain {
     fn any(mask: [bool; LANES]) -> bool {
         mask.contains(&true)
     }
+
+    #[inline(always)]
+    fn split_exponent(self) -> (Self, Self) {
+        (
+            Plain(self.0.map(|lane| lane.split_exponent().0)),
+            Plain(self.0.map(|lane| lane.split_exponent().1)),
+        )
+    }
+
+    #[inline(always)]
+    fn scaled_by_power_of_two(self, exponent: Self) -> Self {
+        Plain(std::array::from_fn(|lane| {
+            self.0[lane].scaled_by_power_of_two(exponent.0[lane])
+        }))
+    }
 }
 
 impl Wide for Plain {
@@ -135,6 +152,7 @@ mod x86 {
 
     /// One register of AVX-512, under the same rule.
     #[derive(Clone, Copy, Debug)]
+    #[repr(transparent)]
     pub struct Avx512(__m512d);
 
     macro_rules! operator {
@@ -223,6 +241,33 @@ mod x86 {
         fn any(mask: [__m256d; 2]) -> bool {
             unsafe { _mm256_movemask_pd(_mm256_or_pd(mask[0], mask[1])) != 0 }
         }
+
+        #[inline(always)]
+        fn split_exponent(self) -> (Self, Self) {
+            let all = self.0.map(|half| unsafe {
+                let to_one = _mm256_set1_epi64x(bits::TO_ONE as i64);
+                _mm256_add_epi64(_mm256_castpd_si256(half), to_one)
+            });
+            let mantissa = all.map(|half| unsafe {
+                let kept = _mm256_and_si256(half, _mm256_set1_epi64x(bits::MANTISSA as i64));
+                let root_half = _mm256_set1_epi64x(bits::ROOT_HALF as i64);
+                _mm256_castsi256_pd(_mm256_add_epi64(kept, root_half))
+            });
+            let exponent = all.map(|half| unsafe {
+                let whole = _mm256_set1_epi64x(bits::WHOLE as i64);
+                _mm256_castsi256_pd(_mm256_or_si256(_mm256_srli_epi64::<52>(half), whole))
+            });
+            (Avx2(mantissa), Avx2(exponent) - Self::splat(bits::SHIFT))
+        }
+
+        #[inline(always)]
+        fn scaled_by_power_of_two(self, exponent: Self) -> Self {
+            let shifted = exponent + Self::splat(bits::SHIFT);
+            let power = shifted.0.map(|half| unsafe {
+                _mm256_castsi256_pd(_mm256_slli_epi64::<52>(_mm256_castpd_si256(half)))
+            });
+            self * Avx2(power)
+        }
     }
 
     /// Rows and columns of a square exchanged.
@@ -275,19 +320,26 @@ mod x86 {
         }
     }
 
+    // Closures are not compiled with the instructions of their caller: lists are written out.
     impl Wide for Avx2 {
         #[inline(always)]
         fn gather(records: &[Record], members: &[u32; LANES]) -> [Self; 8] {
             // A square of four fields of four particles at a time.
-            // SAFETY: half a record is 32 aligned bytes and its index is checked.
-            let square = |particle: usize, field: usize| {
-                turned_4(std::array::from_fn(|i| unsafe {
-                    let record = &records[members[particle + i] as usize].0;
-                    _mm256_load_pd(record.as_ptr().add(field))
-                }))
-            };
-            let (a, b) = (square(0, 0), square(4, 0));
-            let (c, d) = (square(0, 4), square(4, 4));
+            macro_rules! square {
+                ($particle:literal, $field:literal) => {{
+                    macro_rules! row {
+                        ($i:literal) => {
+                            _mm256_load_pd(
+                                records[members[$particle + $i] as usize].0[$field..$field + 4].as_ptr(),
+                            )
+                        };
+                    }
+                    // SAFETY: half a record is 32 aligned bytes and its index is checked.
+                    turned_4(unsafe { [row!(0), row!(1), row!(2), row!(3)] })
+                }};
+            }
+            let (a, b) = (square!(0, 0), square!(4, 0));
+            let (c, d) = (square!(0, 4), square!(4, 4));
             [
                 Avx2([a[0], b[0]]),
                 Avx2([a[1], b[1]]),
@@ -308,19 +360,31 @@ mod x86 {
 
         #[inline(always)]
         fn records(fields: [Self; 8]) -> [Record; LANES] {
-            let half = |particle: usize, field: usize| {
-                turned_4(std::array::from_fn(|i| fields[field + i].0[particle]))
-            };
-            let (a, b, c, d) = (half(0, 0), half(0, 4), half(1, 0), half(1, 4));
-            // SAFETY: both are eight doubles.
-            std::array::from_fn(|lane| unsafe {
-                let halves = if lane < 4 {
-                    [a[lane], b[lane]]
-                } else {
-                    [c[lane - 4], d[lane - 4]]
+            macro_rules! square {
+                ($half:literal, $field:literal) => {
+                    turned_4([
+                        fields[$field].0[$half],
+                        fields[$field + 1].0[$half],
+                        fields[$field + 2].0[$half],
+                        fields[$field + 3].0[$half],
+                    ])
                 };
-                Record(std::mem::transmute::<[__m256d; 2], [f64; LANES]>(halves))
-            })
+            }
+            let (a, b) = (square!(0, 0), square!(0, 4));
+            let (c, d) = (square!(1, 0), square!(1, 4));
+            // SAFETY: both are eight times eight doubles.
+            unsafe {
+                std::mem::transmute::<[[__m256d; 2]; 8], [Record; LANES]>([
+                    [a[0], b[0]],
+                    [a[1], b[1]],
+                    [a[2], b[2]],
+                    [a[3], b[3]],
+                    [c[0], d[0]],
+                    [c[1], d[1]],
+                    [c[2], d[2]],
+                    [c[3], d[3]],
+                ])
+            }
         }
 
         #[inline(always)]
@@ -367,15 +431,55 @@ mod x86 {
         fn any(mask: __mmask8) -> bool {
             mask != 0
         }
+
+        #[inline(always)]
+        fn split_exponent(self) -> (Self, Self) {
+            unsafe {
+                let to_one = _mm512_set1_epi64(bits::TO_ONE as i64);
+                let all = _mm512_add_epi64(_mm512_castpd_si512(self.0), to_one);
+                let kept = _mm512_and_si512(all, _mm512_set1_epi64(bits::MANTISSA as i64));
+                let mantissa = _mm512_add_epi64(kept, _mm512_set1_epi64(bits::ROOT_HALF as i64));
+                let whole = _mm512_set1_epi64(bits::WHOLE as i64);
+                let exponent = _mm512_or_si512(_mm512_srli_epi64::<52>(all), whole);
+                (
+                    Avx512(_mm512_castsi512_pd(mantissa)),
+                    Avx512(_mm512_castsi512_pd(exponent)) - Self::splat(bits::SHIFT),
+                )
+            }
+        }
+
+        #[inline(always)]
+        fn scaled_by_power_of_two(self, exponent: Self) -> Self {
+            let shifted = exponent + Self::splat(bits::SHIFT);
+            let power =
+                unsafe { _mm512_castsi512_pd(_mm512_slli_epi64::<52>(_mm512_castpd_si512(shifted.0))) };
+            self * Avx512(power)
+        }
     }
 
     impl Wide for Avx512 {
         /// Eight whole cache lines and an 8 × 8 transposition in registers.
         #[inline(always)]
         fn gather(records: &[Record], members: &[u32; LANES]) -> [Self; 8] {
-            // SAFETY: a record is 64 aligned bytes and its index is checked.
-            let rows = members.map(|member| unsafe { _mm512_load_pd(records[member as usize].0.as_ptr()) });
-            turned_8(rows).map(Avx512)
+            macro_rules! row {
+                ($i:literal) => {
+                    _mm512_load_pd(records[members[$i] as usize].0.as_ptr())
+                };
+            }
+            // SAFETY: a record is 64 aligned bytes and its index is checked; both are eight registers.
+            unsafe {
+                let rows = [
+                    row!(0),
+                    row!(1),
+                    row!(2),
+                    row!(3),
+                    row!(4),
+                    row!(5),
+                    row!(6),
+                    row!(7),
+                ];
+                std::mem::transmute::<[__m512d; 8], [Avx512; 8]>(turned_8(rows))
+            }
         }
 
         #[inline(always)]
@@ -386,9 +490,11 @@ mod x86 {
 
         #[inline(always)]
         fn records(fields: [Self; 8]) -> [Record; LANES] {
-            // SAFETY: both are eight doubles.
-            turned_8(fields.map(|field| field.0))
-                .map(|row| Record(unsafe { std::mem::transmute::<__m512d, [f64; LANES]>(row) }))
+            // SAFETY: all are eight times eight doubles.
+            unsafe {
+                let rows = turned_8(std::mem::transmute::<[Avx512; 8], [__m512d; 8]>(fields));
+                std::mem::transmute::<[__m512d; 8], [Record; LANES]>(rows)
+            }
         }
 
         #[inline(always)]
@@ -397,6 +503,45 @@ mod x86 {
             unsafe { std::mem::transmute(self.0) }
         }
     }
+}
+
+/// Work written once and compiled for each kind of register.
+pub trait WideWork {
+    type Output;
+
+    /// Must be `#[inline(always)]`, to be compiled with the instructions of its caller.
+    fn run<W: Wide>(self) -> Self::Output;
+}
+
+/// Does the work in the widest registers the machine has.
+pub fn in_widest<J: WideWork>(work: J) -> J::Output {
+    #[cfg(target_arch = "x86_64")]
+    {
+        if is_x86_feature_detected!("avx512f")
+            && is_x86_feature_detected!("avx512dq")
+            && is_x86_feature_detected!("avx512vl")
+        {
+            // SAFETY: the features were just detected.
+            return unsafe { in_avx512(work) };
+        }
+        if is_x86_feature_detected!("avx2") {
+            // SAFETY: the feature was just detected.
+            return unsafe { in_avx2(work) };
+        }
+    }
+    work.run::<Plain>()
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+fn in_avx512<J: WideWork>(work: J) -> J::Output {
+    work.run::<Avx512>()
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn in_avx2<J: WideWork>(work: J) -> J::Output {
+    work.run::<Avx2>()
 }
 
 #[cfg(test)]
@@ -421,6 +566,41 @@ mod tests {
         numbers.extend(W::from_lanes(a.lanes()).lanes());
         numbers.extend(W::records(fields).iter().flat_map(|record| record.0));
         numbers
+    }
+
+    /// Exponentials and logarithms, the ends of their range among them.
+    fn elementary<W: Wide>() -> Vec<u64> {
+        use crate::math::elementary::{exp, ln, power};
+        let mut values = vec![0.0, 1e-310, f64::INFINITY, f64::NAN, -5.0, 1.0, 800.0, -800.0];
+        values.extend((0..4096).map(|i| (f64::from(i) * 0.618_033_988_749_894_9).fract() * 1400.0 - 700.0));
+        let (groups, _) = values.as_chunks::<LANES>();
+        let mut numbers = Vec::new();
+        for &lanes in groups {
+            let x = W::from_lanes(lanes);
+            numbers.extend(exp(x).lanes());
+            numbers.extend(ln(x).lanes());
+            let raised = power(x * x, W::splat(-0.3)).lanes();
+            numbers.extend(raised);
+            assert_eq!(
+                raised.map(f64::to_bits),
+                lanes.map(|x| power(x * x, -0.3).to_bits())
+            );
+        }
+        numbers.iter().map(|number| number.to_bits()).collect()
+    }
+
+    #[test]
+    fn elementary_functions_have_the_same_bits_on_all_registers() {
+        let plain = elementary::<Plain>();
+        #[cfg(target_arch = "x86_64")]
+        {
+            if is_x86_feature_detected!("avx2") {
+                assert!(elementary::<Avx2>() == plain);
+            }
+            if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
+                assert!(elementary::<Avx512>() == plain);
+            }
+        }
     }
 
     #[test]

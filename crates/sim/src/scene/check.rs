@@ -15,13 +15,14 @@ pub fn check(scene: &Scene) -> Vec<Fault> {
         Scene::SingleSphere(sphere) => single_sphere(sphere, &mut list),
         Scene::ConstantPorosityBlock(block) => porosity_block(block, &mut list),
         Scene::BinaryCollision(collision) => super::collision::check(collision, &mut list),
+        Scene::Sedimentation(sedimentation) => super::sedimentation::check(sedimentation, &mut list),
     }
     // The safe step follows from numbers that must make sense first.
     if list.0.is_empty() {
         match scene {
             Scene::SingleSphere(sphere) => time_step(&Settling::of_sphere(sphere), &mut list),
             Scene::ConstantPorosityBlock(block) => time_step(&Settling::of_block(block), &mut list),
-            Scene::BinaryCollision(_) => {}
+            Scene::BinaryCollision(_) | Scene::Sedimentation(_) => {}
         }
     }
     list.0
@@ -46,9 +47,30 @@ impl List {
             let name = path.rsplit('.').next().unwrap_or(path);
             self.add(
                 path,
-                format!("`{name}` is {value}, it must be above 0"),
+                format!("`{name}` is {}, it must be above 0", shown(value)),
                 "write a positive number",
             );
+        }
+        holds
+    }
+
+    /// Asks for a finite number of any sign.
+    pub(super) fn finite(&mut self, path: &str, value: f64) -> bool {
+        if !value.is_finite() {
+            let name = path.rsplit('.').next().unwrap_or(path);
+            let message = format!("`{name}` is {value}, it must be finite");
+            self.add(path, message, "write a number");
+        }
+        value.is_finite()
+    }
+
+    /// Asks for a finite number that may vanish.
+    pub(super) fn not_negative(&mut self, path: &str, value: f64) -> bool {
+        let holds = value >= 0.0 && value.is_finite();
+        if !holds {
+            let name = path.rsplit('.').next().unwrap_or(path);
+            let message = format!("`{name}` is {}, it must be 0 or above", shown(value));
+            self.add(path, message, "write a number that is not negative");
         }
         holds
     }
@@ -283,8 +305,17 @@ fn lattice(scene: &ConstantPorosityBlock, list: &mut List) {
     }
 }
 
+/// A number, small ones with an exponent.
+fn shown(value: f64) -> String {
+    if value != 0.0 && value.abs() < 1e-5 {
+        format!("{value:e}")
+    } else {
+        value.to_string()
+    }
+}
+
 /// A length in millimetres, with as many digits as it needs, at most six.
-fn millimetres(length: f64) -> String {
+pub(super) fn millimetres(length: f64) -> String {
     let text = format!("{:.6}", 1e3 * length);
     format!("{} mm", text.trim_end_matches('0').trim_end_matches('.'))
 }

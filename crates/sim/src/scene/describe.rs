@@ -16,6 +16,7 @@ pub fn describe(scene: &Scene) -> Description {
         Scene::SingleSphere(sphere) => Settling::of_sphere(sphere),
         Scene::ConstantPorosityBlock(block) => Settling::of_block(block),
         Scene::BinaryCollision(collision) => return super::collision::describe(collision),
+        Scene::Sedimentation(scene) => return super::sedimentation::describe(scene),
     };
     let (dt, steps) = settling.steps();
     let grains = settling.positions().len() as u64;

@@ -29,6 +29,17 @@ pub enum Scene {
     SingleSphere(SingleSphere),
     ConstantPorosityBlock(ConstantPorosityBlock),
     BinaryCollision(BinaryCollision),
+    Sedimentation(Sedimentation),
+}
+
+impl Scene {
+    /// Threads that a run of it keeps busy.
+    pub fn threads(&self) -> u32 {
+        match self {
+            Scene::Sedimentation(scene) => scene.threads,
+            Scene::SingleSphere(_) | Scene::ConstantPorosityBlock(_) | Scene::BinaryCollision(_) => 1,
+        }
+    }
 }
 
 /// One grain falls from rest in a column of fluid, away from the walls.
@@ -311,6 +322,7 @@ pub fn run(scene: &Scene, control: &Control) -> Result<Outcome, Box<Failure>> {
         Scene::SingleSphere(sphere) => setup::Settling::of_sphere(sphere),
         Scene::ConstantPorosityBlock(block) => setup::Settling::of_block(block),
         Scene::BinaryCollision(collision) => return collision::run(collision, control),
+        Scene::Sedimentation(scene) => return sedimentation::run(scene, control),
     };
     match settling.sph() {
         Some(sph) => setup::with_law!(settling.drag, law => run_sph::run(&settling, sph, law, control)),

@@ -226,6 +226,7 @@ pub fn observables(scene: &Scene) -> Vec<Observable> {
         Scene::SingleSphere(sphere) => Settling::of_sphere(sphere),
         Scene::ConstantPorosityBlock(block) => Settling::of_block(block),
         Scene::BinaryCollision(collision) => return super::collision::observables(collision),
+        Scene::Sedimentation(scene) => return super::sedimentation::observables(scene),
     };
     let particles = if settling.sph().is_some() {
         PARTICLES

@@ -262,6 +262,7 @@ fn counters<L: DragLaw>(simulation: &Simulation<L>) -> Counters {
         coupling_pairs: simulation.exchange.pairs,
         list_rebuilds: simulation.fluid.rebuilds,
         porosity_clips: simulation.porosity_clips,
+        ..Counters::default()
     }
 }
 

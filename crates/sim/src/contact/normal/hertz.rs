@@ -8,6 +8,7 @@
 //! Sources: Alvim (2016), eqs. 30–33; Brilliantov et al. (1996), Phys. Rev. E 53, 5382–5392.
 
 use super::Contact;
+use crate::math::Number;
 
 /// 4√π/5 · Γ(2/5)/Γ(9/10) · (15/16)^{2/5}: the duration of an elastic impact in its own units.
 const DURATION: f64 = 2.868_265_699_195;
@@ -18,16 +19,16 @@ pub fn effective_modulus(young_modulus: f64, poisson_ratio: f64) -> f64 {
 }
 
 /// Elastic force [N]; none without overlap.
-#[inline]
-pub(super) fn elastic_force(modulus: f64, contact: &Contact) -> f64 {
-    let overlap = contact.overlap.max(0.0);
-    4.0 / 3.0 * modulus * (contact.reduced_radius * overlap).sqrt() * overlap
+#[inline(always)]
+pub(super) fn elastic_force<N: Number>(modulus: f64, contact: &Contact<N>) -> N {
+    let overlap = contact.overlap.or_zero();
+    N::splat(4.0 / 3.0 * modulus) * (contact.reduced_radius * overlap).sqrt() * overlap
 }
 
 /// Stiffness dF/dδ = 2 E* √(R* δ) [N/m] of the elastic force.
-#[inline]
-pub(super) fn stiffness(modulus: f64, contact: &Contact) -> f64 {
-    2.0 * modulus * (contact.reduced_radius * contact.overlap.max(0.0)).sqrt()
+#[inline(always)]
+pub(super) fn stiffness<N: Number>(modulus: f64, contact: &Contact<N>) -> N {
+    N::splat(2.0 * modulus) * (contact.reduced_radius * contact.overlap.or_zero()).sqrt()
 }
 
 /// Duration [s] of an elastic impact whose speed is the rate of `contact`.

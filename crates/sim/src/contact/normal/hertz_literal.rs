@@ -10,6 +10,7 @@
 
 use super::hertz::{contact_time, elastic_force, stiffness};
 use super::{Contact, NormalLaw};
+use crate::math::Number;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HertzLiteral {
@@ -20,10 +21,10 @@ pub struct HertzLiteral {
 }
 
 impl NormalLaw for HertzLiteral {
-    #[inline]
-    fn force(&self, contact: &Contact) -> f64 {
+    #[inline(always)]
+    fn force<N: Number>(&self, contact: &Contact<N>) -> N {
         let root = (stiffness(self.effective_modulus, contact) * contact.mean_mass).sqrt();
-        elastic_force(self.effective_modulus, contact) + 2.0 * self.damping * root * contact.rate
+        elastic_force(self.effective_modulus, contact) + N::splat(2.0 * self.damping) * root * contact.rate
     }
 
     fn contact_time(&self, contact: &Contact) -> f64 {

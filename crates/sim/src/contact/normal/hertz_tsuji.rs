@@ -10,6 +10,7 @@
 
 use super::hertz::{contact_time, elastic_force, stiffness};
 use super::{Contact, NormalLaw, damping_ratio};
+use crate::math::Number;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HertzTsuji {
@@ -30,11 +31,11 @@ impl HertzTsuji {
 }
 
 impl NormalLaw for HertzTsuji {
-    #[inline]
-    fn force(&self, contact: &Contact) -> f64 {
+    #[inline(always)]
+    fn force<N: Number>(&self, contact: &Contact<N>) -> N {
         let root = (stiffness(self.effective_modulus, contact) * contact.reduced_mass).sqrt();
-        let damping = 2.0 * (5.0f64 / 6.0).sqrt() * self.damping_ratio * root;
-        elastic_force(self.effective_modulus, contact) + damping * contact.rate
+        let share = 2.0 * f64::sqrt(5.0 / 6.0) * self.damping_ratio;
+        elastic_force(self.effective_modulus, contact) + N::splat(share) * root * contact.rate
     }
 
     fn contact_time(&self, contact: &Contact) -> f64 {

@@ -12,6 +12,7 @@
 
 use super::hertz::{contact_time, elastic_force, stiffness};
 use super::{Contact, NormalLaw};
+use crate::math::Number;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HertzViscoelastic {
@@ -22,9 +23,9 @@ pub struct HertzViscoelastic {
 }
 
 impl NormalLaw for HertzViscoelastic {
-    #[inline]
-    fn force(&self, contact: &Contact) -> f64 {
-        let damping = self.damping_time * stiffness(self.effective_modulus, contact);
+    #[inline(always)]
+    fn force<N: Number>(&self, contact: &Contact<N>) -> N {
+        let damping = N::splat(self.damping_time) * stiffness(self.effective_modulus, contact);
         elastic_force(self.effective_modulus, contact) + damping * contact.rate
     }
 

@@ -14,6 +14,7 @@
 use std::f64::consts::PI;
 
 use super::{Contact, NormalLaw, damping_ratio};
+use crate::math::Number;
 
 /// The mass that the dashpot is computed with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,13 +50,13 @@ impl LinearSpringDashpot {
     }
 
     /// Dashpot coefficient γ [N s/m].
-    #[inline]
-    pub fn damping(&self, contact: &Contact) -> f64 {
+    #[inline(always)]
+    pub fn damping<N: Number>(&self, contact: &Contact<N>) -> N {
         let mass = match self.effective_mass {
             EffectiveMass::Reduced => contact.reduced_mass,
             EffectiveMass::Arithmetic => contact.mean_mass,
         };
-        2.0 * self.damping_ratio * (mass * self.stiffness).sqrt()
+        N::splat(2.0 * self.damping_ratio) * (mass * N::splat(self.stiffness)).sqrt()
     }
 
     /// Duration of a contact [s]: π/√(k/m* − (γ/2m*)²); not a number when overdamped.
@@ -66,9 +67,9 @@ impl LinearSpringDashpot {
 }
 
 impl NormalLaw for LinearSpringDashpot {
-    #[inline]
-    fn force(&self, contact: &Contact) -> f64 {
-        self.stiffness * contact.overlap + self.damping(contact) * contact.rate
+    #[inline(always)]
+    fn force<N: Number>(&self, contact: &Contact<N>) -> N {
+        N::splat(self.stiffness) * contact.overlap + self.damping(contact) * contact.rate
     }
 
     fn contact_time(&self, contact: &Contact) -> f64 {

@@ -12,25 +12,27 @@ pub use hertz_tsuji::HertzTsuji;
 pub use hertz_viscoelastic::HertzViscoelastic;
 pub use linear_spring_dashpot::{EffectiveMass, LinearSpringDashpot};
 
+use crate::math::Number;
+
 /// What a normal law sees of two touching bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Contact {
+pub struct Contact<N = f64> {
     /// Overlap δ [m]; below zero only within the step in which a contact ends.
-    pub overlap: f64,
+    pub overlap: N,
     /// dδ/dt [m/s], positive while the bodies approach.
-    pub rate: f64,
+    pub rate: N,
     /// m* = m_i m_j/(m_i + m_j) [kg]; the grain's own mass at a wall.
-    pub reduced_mass: f64,
+    pub reduced_mass: N,
     /// (m_i + m_j)/2 [kg]; the grain's own mass at a wall. A published form takes it for m*.
-    pub mean_mass: f64,
+    pub mean_mass: N,
     /// R* = R_i R_j/(R_i + R_j) [m]; the grain's own radius at a wall.
-    pub reduced_radius: f64,
+    pub reduced_radius: N,
 }
 
 /// A normal contact law. No force is clipped at zero: the end of a contact is the end of its overlap.
 pub trait NormalLaw: Copy {
     /// Repulsive force [N].
-    fn force(&self, contact: &Contact) -> f64;
+    fn force<N: Number>(&self, contact: &Contact<N>) -> N;
 
     /// Duration [s] of a contact that begins as `contact` says (its rate the impact speed), damping
     /// left out where it has no closed form. Not finite where the contact never ends.

@@ -11,7 +11,7 @@
 use std::f64::consts::PI;
 
 use super::{Slip, TangentialLaw};
-use crate::math::Vec3;
+use crate::math::{Number, Vector};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CundallStrack {
@@ -24,16 +24,16 @@ pub struct CundallStrack {
 }
 
 impl TangentialLaw for CundallStrack {
-    #[inline]
-    fn force(&self, slip: &Slip, history: Vec3) -> (Vec3, Vec3) {
+    #[inline(always)]
+    fn force<N: Number>(&self, slip: &Slip<N>, history: Vector<N>) -> (Vector<N>, Vector<N>) {
         let displacement = slip.displaced(history);
-        let trial = displacement * -self.stiffness - slip.velocity * self.damping;
-        let (size, most) = (trial.norm(), self.friction * slip.normal_force);
-        if size <= most {
-            return (trial, displacement);
-        }
-        let force = trial * (most / size);
-        (force, (force + slip.velocity * self.damping) / -self.stiffness)
+        let dashpot = slip.velocity * N::splat(self.damping);
+        let trial = displacement * N::splat(-self.stiffness) - dashpot;
+        let (size, most) = (trial.norm(), N::splat(self.friction) * slip.normal_force);
+        let slides = most.below(size);
+        let force = Vector::select(slides, trial * (most / size), trial);
+        let left = (force + dashpot) * N::splat(-1.0 / self.stiffness);
+        (force, Vector::select(slides, left, displacement))
     }
 
     fn step_limit(&self, resisting_mass: f64) -> f64 {
@@ -54,8 +54,8 @@ mod tests {
 
     fn slip(speed: f64) -> Slip {
         Slip {
-            velocity: Vec3::new(0.0, speed, 0.0),
-            normal: Vec3::new(1.0, 0.0, 0.0),
+            velocity: Vector::new(0.0, speed, 0.0),
+            normal: Vector::new(1.0, 0.0, 0.0),
             normal_force: 1.0,
             overlap: 1e-6,
             reduced_mass: 1e-6,
@@ -66,7 +66,7 @@ mod tests {
 
     #[test]
     fn a_reversal_after_long_sliding_unloads_at_once() {
-        let mut history = Vec3::zeros();
+        let mut history = Vector::zeros();
         for _ in 0..1000 {
             history = LAW.force(&slip(1.0), history).1;
         }
@@ -79,8 +79,8 @@ mod tests {
     #[test]
     fn the_spring_turns_with_the_contact_plane_at_its_length() {
         let mut turned = slip(0.0);
-        turned.normal = Vec3::new(0.6, 0.8, 0.0);
-        let (force, history) = LAW.force(&turned, Vec3::new(0.0, 1e-4, 0.0));
+        turned.normal = Vector::new(0.6, 0.8, 0.0);
+        let (force, history) = LAW.force(&turned, Vector::new(0.0, 1e-4, 0.0));
         assert!(force.dot(&turned.normal).abs() < 1e-18);
         assert!((history.norm() / 1e-4 - 1.0).abs() < 1e-12);
     }

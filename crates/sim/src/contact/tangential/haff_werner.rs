@@ -10,7 +10,7 @@
 //! (2016), eqs. 37–38.
 
 use super::{Slip, TangentialLaw};
-use crate::math::Vec3;
+use crate::math::{Number, Vector};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HaffWerner {
@@ -21,17 +21,16 @@ pub struct HaffWerner {
 }
 
 impl TangentialLaw for HaffWerner {
-    #[inline]
-    fn force(&self, slip: &Slip, history: Vec3) -> (Vec3, Vec3) {
+    #[inline(always)]
+    fn force<N: Number>(&self, slip: &Slip<N>, history: Vector<N>) -> (Vector<N>, Vector<N>) {
         let speed = slip.velocity.norm();
-        if speed == 0.0 {
-            return (Vec3::zeros(), history);
-        }
-        let stop = slip.resisting_mass() * speed / slip.time_step;
-        let force = (self.damping * speed)
-            .min(self.friction * slip.normal_force)
-            .min(stop);
-        (slip.velocity * (-force / speed), history)
+        let zero = N::splat(0.0);
+        // Force per slip velocity: the least of dashpot, friction and what stops the slip.
+        let sliding = N::splat(self.friction) * slip.normal_force / speed;
+        let stop = slip.resisting_mass() * N::splat(1.0 / slip.time_step);
+        let resistance = sliding.min(N::splat(self.damping)).min(stop);
+        let resistance = N::select(zero.below(speed), resistance, zero);
+        (slip.velocity * (zero - resistance), history)
     }
 
     /// None: the impulse is limited in every step.
@@ -51,8 +50,8 @@ mod tests {
             friction: 0.5,
         };
         let slip = |time_step| Slip {
-            velocity: Vec3::new(0.0, 0.02, -0.01),
-            normal: Vec3::new(1.0, 0.0, 0.0),
+            velocity: Vector::new(0.0, 0.02, -0.01),
+            normal: Vector::new(1.0, 0.0, 0.0),
             normal_force: 1.0,
             overlap: 1e-8,
             reduced_mass: 1e-8,
@@ -61,7 +60,7 @@ mod tests {
         };
         for time_step in [1e-9, 1e-6, 1e-3] {
             let slip = slip(time_step);
-            let (force, _) = law.force(&slip, Vec3::zeros());
+            let (force, _) = law.force(&slip, Vector::zeros());
             let after = slip.velocity + force * (time_step / slip.resisting_mass());
             assert!(after.dot(&slip.velocity) >= -1e-18, "{time_step}");
             assert!(force.norm() <= 0.5);

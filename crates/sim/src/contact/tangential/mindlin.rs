@@ -10,7 +10,7 @@
 //! 327–344; Alvim (2016), eqs. 41–42, where the 2 is missing.
 
 use super::{Slip, TangentialLaw};
-use crate::math::Vec3;
+use crate::math::{Number, Vector};
 
 /// Which slip counts as full.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,29 +32,32 @@ pub struct Mindlin {
 
 impl Mindlin {
     /// ξ_max [m] at an overlap [m].
-    #[inline]
-    fn full_slip(&self, overlap: f64) -> f64 {
+    #[inline(always)]
+    fn full_slip<N: Number>(&self, overlap: N) -> N {
         let share = match self.slip_limit {
             SlipLimit::Correct => 0.5,
             SlipLimit::Literal => 1.0,
         };
-        share * self.friction * overlap * (2.0 - self.poisson_ratio) / (1.0 - self.poisson_ratio)
+        let share = share * self.friction * (2.0 - self.poisson_ratio) / (1.0 - self.poisson_ratio);
+        overlap * N::splat(share)
     }
 }
 
 impl TangentialLaw for Mindlin {
-    #[inline]
-    fn force(&self, slip: &Slip, history: Vec3) -> (Vec3, Vec3) {
+    #[inline(always)]
+    fn force<N: Number>(&self, slip: &Slip<N>, history: Vector<N>) -> (Vector<N>, Vector<N>) {
         let displacement = slip.displaced(history);
         let (length, most) = (displacement.norm(), self.full_slip(slip.overlap));
-        if length == 0.0 || most == 0.0 {
-            return (Vec3::zeros(), Vec3::zeros());
-        }
-        let kept = (length / most).min(1.0);
-        let rest = 1.0 - kept;
-        let force = self.friction * slip.normal_force * (1.0 - rest * rest.sqrt());
-        let direction = displacement / length;
-        (direction * -force, direction * (kept * most))
+        let (zero, one) = (N::splat(0.0), N::splat(1.0));
+        let per_length = N::select(zero.below(length), one / length, zero);
+        // Without overlap there is neither friction nor slip to remember.
+        let kept = N::select(zero.below(most), (length / most).min(one), zero);
+        let rest = one - kept;
+        let force = N::splat(self.friction) * slip.normal_force * (one - rest * rest.sqrt());
+        (
+            displacement * (zero - force * per_length),
+            displacement * (kept * most * per_length),
+        )
     }
 
     /// The stiffness is below that of the normal contact: its limit holds for both.
@@ -77,8 +80,8 @@ mod tests {
 
     fn slip(overlap: f64, normal_force: f64) -> Slip {
         Slip {
-            velocity: Vec3::zeros(),
-            normal: Vec3::new(1.0, 0.0, 0.0),
+            velocity: Vector::zeros(),
+            normal: Vector::new(1.0, 0.0, 0.0),
             normal_force,
             overlap,
             reduced_mass: 1e-8,
@@ -95,7 +98,7 @@ mod tests {
         let hertz = 4.0 / 3.0 * modulus * (radius * overlap * overlap * overlap).sqrt();
         let shift = 1e-14;
         let stiffness = |limit| {
-            let history = Vec3::new(0.0, shift, 0.0);
+            let history = Vector::new(0.0, shift, 0.0);
             -law(limit).force(&slip(overlap, hertz), history).0.y / shift
         };
         let expected = 8.0 * shear * (radius * overlap).sqrt();
@@ -105,7 +108,7 @@ mod tests {
 
     #[test]
     fn full_slip_is_coulomb_friction_and_cuts_the_history() {
-        let (force, history) = law(SlipLimit::Correct).force(&slip(1e-8, 2.0), Vec3::new(0.0, 1.0, 0.0));
+        let (force, history) = law(SlipLimit::Correct).force(&slip(1e-8, 2.0), Vector::new(0.0, 1.0, 0.0));
         assert!((force.y + 0.6).abs() < 1e-15);
         assert!(history.y < 1e-8);
     }

@@ -17,38 +17,22 @@ pub fn check(scene: &BinaryCollision, list: &mut List) {
     if let Some(step) = scene.time_step {
         sound &= list.positive("time_step", step);
     }
-    sound &= finite("tangential_speed", scene.tangential_speed, list);
-    sound &= finite("spin", scene.spin, list);
-    sound &= normal(&scene.normal, list);
-    sound &= tangential(&scene.tangential, list);
-    if let Rolling::Resistance(law) = &scene.rolling {
-        sound &= not_negative("rolling.resistance.friction", law.friction, list);
-    }
+    sound &= list.finite("tangential_speed", scene.tangential_speed);
+    sound &= list.finite("spin", scene.spin);
+    sound &= check_laws(&scene.normal, &scene.tangential, &scene.rolling, list);
     if sound && ends(scene, list) {
         time_step(scene, list);
     }
 }
 
-fn finite(path: &str, value: f64, list: &mut List) -> bool {
-    if !value.is_finite() {
-        list.add(
-            path,
-            format!("`{path}` is {value}, it must be finite"),
-            "write a number",
-        );
+/// Parameters of contact laws, below `normal`, `tangential` and `rolling`.
+pub fn check_laws(normal: &Normal, tangential: &Tangential, rolling: &Rolling, list: &mut List) -> bool {
+    let mut sound = normal_law(normal, list);
+    sound &= tangential_law(tangential, list);
+    if let Rolling::Resistance(law) = rolling {
+        sound &= list.not_negative("rolling.resistance.friction", law.friction);
     }
-    value.is_finite()
-}
-
-/// Coefficients that may vanish.
-fn not_negative(path: &str, value: f64, list: &mut List) -> bool {
-    let holds = value >= 0.0 && value.is_finite();
-    if !holds {
-        let name = path.rsplit('.').next().unwrap_or(path);
-        let message = format!("`{name}` is {value}, it must be 0 or above");
-        list.add(path, message, "write a number that is not negative");
-    }
-    holds
+    sound
 }
 
 fn restitution(path: &str, value: f64, list: &mut List) -> bool {
@@ -72,7 +56,7 @@ fn poisson_ratio(path: &str, value: f64, list: &mut List) -> bool {
     holds
 }
 
-fn normal(normal: &Normal, list: &mut List) -> bool {
+fn normal_law(normal: &Normal, list: &mut List) -> bool {
     let material = |law: &str, material: &super::Material, list: &mut List| {
         let young = list.positive(&format!("normal.{law}.young_modulus"), material.young_modulus);
         poisson_ratio(
@@ -95,7 +79,7 @@ fn normal(normal: &Normal, list: &mut List) -> bool {
             damping_time,
         } => {
             let path = "normal.hertz_viscoelastic.damping_time";
-            not_negative(path, *damping_time, list) & material("hertz_viscoelastic", solid, list)
+            list.not_negative(path, *damping_time) & material("hertz_viscoelastic", solid, list)
         }
         Normal::HertzTsuji {
             material: solid,
@@ -106,25 +90,25 @@ fn normal(normal: &Normal, list: &mut List) -> bool {
             damping,
         } => {
             let path = "normal.hertz_literal.damping";
-            not_negative(path, *damping, list) & material("hertz_literal", solid, list)
+            list.not_negative(path, *damping) & material("hertz_literal", solid, list)
         }
     }
 }
 
-fn tangential(tangential: &Tangential, list: &mut List) -> bool {
+fn tangential_law(tangential: &Tangential, list: &mut List) -> bool {
     match tangential {
         Tangential::None => true,
         Tangential::HaffWerner(law) => {
-            not_negative("tangential.haff_werner.damping", law.damping, list)
-                & not_negative("tangential.haff_werner.friction", law.friction, list)
+            list.not_negative("tangential.haff_werner.damping", law.damping)
+                & list.not_negative("tangential.haff_werner.friction", law.friction)
         }
         Tangential::CundallStrack(law) => {
             list.positive("tangential.cundall_strack.stiffness", law.stiffness)
-                & not_negative("tangential.cundall_strack.damping", law.damping, list)
-                & not_negative("tangential.cundall_strack.friction", law.friction, list)
+                & list.not_negative("tangential.cundall_strack.damping", law.damping)
+                & list.not_negative("tangential.cundall_strack.friction", law.friction)
         }
         Tangential::Mindlin(law) => {
-            not_negative("tangential.mindlin.friction", law.friction, list)
+            list.not_negative("tangential.mindlin.friction", law.friction)
                 & poisson_ratio("tangential.mindlin.poisson_ratio", law.poisson_ratio, list)
         }
     }

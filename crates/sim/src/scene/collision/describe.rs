@@ -32,24 +32,8 @@ pub fn describe(scene: &BinaryCollision) -> Description {
             "m/s",
         ),
     ]);
-    description
-        .active
-        .extend([normal(&scene.normal), integrator(scene.integrator)]);
-    match tangential(&scene.tangential) {
-        Some(words) => description.active.push(words),
-        None => description
-            .left_out
-            .push("friction: no tangential law is named".to_owned()),
-    }
-    match &scene.rolling {
-        Rolling::Resistance(law) => description.active.push(format!(
-            "rolling resistance with coefficient {}, one radius per pair",
-            law.friction
-        )),
-        Rolling::None => description
-            .left_out
-            .push("rolling resistance: no rolling law is named".to_owned()),
-    }
+    describe_laws(&scene.normal, &scene.tangential, &scene.rolling, &mut description);
+    description.active.push(integrator(scene.integrator));
     description
         .left_out
         .push("gravity, fluid and long-range forces: a collision happens in empty space".to_owned());
@@ -59,6 +43,31 @@ pub fn describe(scene: &BinaryCollision) -> Description {
         ));
     }
     description
+}
+
+/// The contact laws, those that are left out among them.
+pub fn describe_laws(
+    normal_law: &Normal,
+    tangential_law: &Tangential,
+    rolling: &Rolling,
+    description: &mut Description,
+) {
+    description.active.push(normal(normal_law));
+    match tangential(tangential_law) {
+        Some(words) => description.active.push(words),
+        None => description
+            .left_out
+            .push("friction: no tangential law is named".to_owned()),
+    }
+    match rolling {
+        Rolling::Resistance(law) => description.active.push(format!(
+            "rolling resistance with coefficient {}, one radius per pair",
+            law.friction
+        )),
+        Rolling::None => description
+            .left_out
+            .push("rolling resistance: no rolling law is named".to_owned()),
+    }
 }
 
 fn normal(normal: &Normal) -> String {
@@ -95,7 +104,8 @@ fn tangential(tangential: &Tangential) -> Option<String> {
     Some(words.to_owned())
 }
 
-fn integrator(choice: IntegratorChoice) -> String {
+/// An integrator in words.
+pub fn integrator(choice: IntegratorChoice) -> String {
     match choice {
         IntegratorChoice::VelocityVerlet => "velocity Verlet: first order under damping, second without",
         IntegratorChoice::Gear5 => "Gear predictor–corrector of 5 values, 19/90",

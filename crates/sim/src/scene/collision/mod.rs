@@ -2,7 +2,6 @@
 
 mod check;
 mod describe;
-mod laws;
 mod model;
 mod observables;
 mod pair;
@@ -11,8 +10,9 @@ mod setup;
 
 pub use model::{BinaryCollision, IntegratorChoice, Material, Normal, Partner, Rolling, Tangential};
 
-pub(super) use check::check;
-pub(super) use describe::describe;
+pub(super) use check::{check, check_laws};
+pub(super) use describe::{describe, describe_laws, integrator};
+
 pub(super) use observables::observables;
 pub(super) use run::run;
 

@@ -1,6 +1,10 @@
 //! The collision scene as plain data in SI units.
 
-use crate::contact::{CundallStrack, EffectiveMass, HaffWerner, Mindlin, RollingResistance};
+use crate::contact::normal::{damping_ratio, effective_modulus};
+use crate::contact::{
+    AnyNormal, EffectiveMass, HertzLiteral, HertzTsuji, HertzViscoelastic, LinearSpringDashpot,
+};
+pub use crate::contact::{AnyRolling as Rolling, AnyTangential as Tangential};
 use crate::scene::Grains;
 
 /// A grain meets another one, or a flat wall, in empty space; the run ends when they part.
@@ -64,26 +68,45 @@ pub enum Normal {
     },
 }
 
+impl Normal {
+    /// The law with its derived constants.
+    pub fn law(&self) -> AnyNormal {
+        let modulus = |material: &Material| effective_modulus(material.young_modulus, material.poisson_ratio);
+        match self {
+            Normal::LinearSpringDashpot {
+                stiffness,
+                restitution,
+                effective_mass,
+            } => AnyNormal::Linear(LinearSpringDashpot {
+                stiffness: *stiffness,
+                damping_ratio: damping_ratio(*restitution),
+                effective_mass: *effective_mass,
+            }),
+            Normal::HertzViscoelastic {
+                material,
+                damping_time,
+            } => AnyNormal::Viscoelastic(HertzViscoelastic {
+                effective_modulus: modulus(material),
+                damping_time: *damping_time,
+            }),
+            Normal::HertzTsuji {
+                material,
+                restitution,
+            } => AnyNormal::Tsuji(HertzTsuji::with_restitution(modulus(material), *restitution)),
+            Normal::HertzLiteral { material, damping } => AnyNormal::Literal(HertzLiteral {
+                effective_modulus: modulus(material),
+                damping: *damping,
+            }),
+        }
+    }
+}
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
     /// Young's modulus E [Pa].
     pub young_modulus: f64,
     /// Poisson's ratio ν [-].
     pub poisson_ratio: f64,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Tangential {
-    None,
-    HaffWerner(HaffWerner),
-    CundallStrack(CundallStrack),
-    Mindlin(Mindlin),
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Rolling {
-    None,
-    Resistance(RollingResistance),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

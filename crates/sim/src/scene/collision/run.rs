@@ -282,7 +282,7 @@ impl<'a> Record<'a> {
             ),
         ]);
         if impact.slip() != 0.0 {
-            let after = end.touch.slip.dot(&Vec3::new(-NORMAL.y, NORMAL.x, 0.0));
+            let after = end.touch.slip.dot(&Vec3::new(-NORMAL.y, NORMAL.x, 0.0).into());
             scalars.push(scalar("tangential_restitution", "1", -after / impact.slip()));
         }
         if !impact.bodies[1].is_wall() {

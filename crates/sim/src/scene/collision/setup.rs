@@ -1,11 +1,11 @@
 //! From a collision scene to bodies, contact time and step.
 
-use super::laws::AnyNormal;
 use super::model::{BinaryCollision, IntegratorChoice, Partner, Rolling, Tangential};
 use super::pair::{NORMAL, Pair};
+use crate::contact::AnyNormal;
 use crate::contact::{Body, Contact, ContactLaws, NormalLaw, Slip, TangentialLaw};
 use crate::integrator::Bodies;
-use crate::math::Vec3;
+use crate::math::{Vec3, Vector};
 
 pub type ScenePair = Pair<AnyNormal, Tangential, Rolling>;
 
@@ -29,7 +29,7 @@ impl<'a> Impact<'a> {
         let mut impact = Impact {
             scene,
             bodies: [grain, other],
-            normal: AnyNormal::of(&scene.normal),
+            normal: scene.normal.law(),
             contact: Contact {
                 overlap: 0.0,
                 rate: 0.0,
@@ -107,8 +107,8 @@ impl<'a> Impact<'a> {
         };
         let normal = self.contact_time() / fewest;
         let slip = Slip {
-            velocity: Vec3::zeros(),
-            normal: NORMAL,
+            velocity: Vector::zeros(),
+            normal: NORMAL.into(),
             normal_force: 0.0,
             overlap: 0.0,
             reduced_mass: self.contact.reduced_mass,

@@ -1,8 +1,27 @@
 //! Many grains settle onto the floor of a box.
 
+mod check;
+mod describe;
 mod model;
+mod observables;
+mod observe;
+mod population;
+mod room;
+mod run;
+mod settling;
+mod start;
+mod step;
+mod warnings;
 
 pub use model::{
     Arrangement, Cohesion, Container, Detection, Dimensions, Floor, GrainClass, GrainDrag, Lift,
     Sedimentation, Sides, SlicePorosity, StillFluid, Until, Voidage,
 };
+
+pub(super) use check::check;
+pub(super) use describe::describe;
+pub(super) use observables::observables;
+pub(super) use run::run;
+
+#[cfg(test)]
+mod tests;

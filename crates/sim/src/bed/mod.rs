@@ -1,0 +1,235 @@
+//! Many grains under contact, attraction and a fluid that is not solved for.
+//!
+//! A step: kick, drift, renew the lists, sum the forces. Pairs are kept in half lists in blocks of
+//! eight with their contact histories beside them; grains are stored along a curve in space.
+
+mod attraction;
+mod contacts;
+mod grains;
+mod motion;
+mod pairs;
+mod slices;
+mod touching;
+mod walls;
+
+pub use attraction::{Attraction, Charge};
+pub use contacts::{Interaction, Laws};
+pub use grains::{Grain, Grains};
+pub use motion::Surroundings;
+pub use slices::Porosity;
+pub use touching::Touching;
+pub use walls::Wall;
+
+use crate::math::Vec3;
+use crate::neighbours::{Record, Search, in_widest};
+
+use contacts::PairSweep;
+use motion::KickAndDrift;
+use pairs::PairList;
+use walls::{WallSweep, Walls};
+
+/// Skin of a list where every step makes its own [m over the smallest diameter].
+const NO_SKIN: f64 = 0.0;
+/// Skin of a list over the smallest diameter: at least, at most.
+const SKIN: [f64; 2] = [0.02, 0.4];
+/// Steps that a list should last.
+const LIST_STEPS: f64 = 60.0;
+
+/// How near pairs are kept.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Listing {
+    /// With a skin over the smallest diameter; `None` picks it from the speeds.
+    Skin(Option<f64>),
+    /// Searched anew in every step.
+    EveryStep(Search),
+}
+
+/// A grain that moved where no grain can.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Astray {
+    /// Number of the grain.
+    pub grain: u32,
+    /// Where it is [m].
+    pub position: Vec3,
+    /// [m/s]
+    pub velocity: Vec3,
+}
+
+/// Work done so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    pub steps: u64,
+    /// Pairs in the lists, summed over the steps.
+    pub pairs: u64,
+    /// Pairs looked at while lists were made.
+    pub looked_at: u64,
+    pub lists: u64,
+}
+
+/// Grains, what acts on them, and where they are.
+pub struct Bed {
+    pub grains: Grains,
+    pub interaction: Interaction,
+    pub surroundings: Surroundings,
+    pub listing: Listing,
+    /// `None` where every grain sees clear fluid at rest.
+    pub porosity: Option<Porosity>,
+    pub work: Work,
+    /// Greatest overlap over the smaller diameter since it was last set to zero.
+    pub deepest: f64,
+    walls: Walls,
+    pairs: PairList,
+    forces: Vec<Record>,
+    /// Way every grain may go before the lists must be renewed [m].
+    slack: f64,
+    /// Smallest diameter [m].
+    smallest: f64,
+}
+
+impl Bed {
+    pub fn new(
+        grains: Grains,
+        walls: &[Wall],
+        interaction: Interaction,
+        surroundings: Surroundings,
+        listing: Listing,
+        porosity: Option<Porosity>,
+    ) -> Self {
+        let smallest = grains
+            .spheres()
+            .iter()
+            .map(|sphere| 2.0 * sphere.0[3])
+            .fold(f64::INFINITY, f64::min);
+        let mut bed = Bed {
+            forces: vec![Record::default(); grains.motion.len()],
+            grains,
+            interaction,
+            surroundings,
+            listing,
+            porosity,
+            work: Work::default(),
+            deepest: 0.0,
+            walls: Walls::new(walls),
+            pairs: PairList::default(),
+            slack: 0.0,
+            smallest,
+        };
+        bed.renew_lists(0.0);
+        bed.sum_forces(0.0);
+        bed
+    }
+
+    /// Advances by `steps` time steps; velocities and positions belong to the same instant after it.
+    ///
+    /// # Errors
+    /// A grain whose way in one step is longer than half the smallest diameter, or no number.
+    pub fn advance(&mut self, steps: u64) -> Result<(), Astray> {
+        let dt = self.interaction.time_step;
+        for step in 0..steps {
+            let kick = if step == 0 { 0.5 * dt } else { dt };
+            let fastest = self.move_on(kick, dt)?;
+            self.work.steps += 1;
+            self.slack -= fastest * dt;
+            if self.slack < 0.0 {
+                self.renew_lists(fastest);
+            } else if let Some(porosity) = &mut self.porosity {
+                porosity.follow(&mut self.grains, &self.surroundings, fastest * dt, dt);
+            }
+            self.sum_forces(dt);
+        }
+        if steps > 0 {
+            self.move_on(0.5 * dt, 0.0)?;
+        }
+        Ok(())
+    }
+
+    /// Kicks and drifts; returns the greatest speed [m/s].
+    fn move_on(&mut self, kick: f64, drift: f64) -> Result<f64, Astray> {
+        let limit = 0.5 * self.smallest / self.interaction.time_step;
+        let fastest = in_widest(KickAndDrift {
+            surroundings: &self.surroundings,
+            grains: &mut self.grains,
+            forces: &mut self.forces,
+            kick,
+            drift,
+            limit,
+        });
+        if fastest.is_finite() {
+            Ok(fastest)
+        } else {
+            Err(self.astray(limit))
+        }
+    }
+
+    fn astray(&self, limit: f64) -> Astray {
+        let sound = |grain: &usize| self.grains.velocity(*grain).norm() < limit;
+        let grain = (0..self.grains.moving).find(|grain| !sound(grain)).unwrap_or(0);
+        Astray {
+            grain: self.grains.number[grain],
+            position: self.grains.position(grain),
+            velocity: self.grains.velocity(grain),
+        }
+    }
+
+    /// Makes the lists of near pairs anew; contacts keep their histories.
+    fn renew_lists(&mut self, fastest: f64) {
+        let grains = &self.grains;
+        let count = grains.len();
+        let memories = self
+            .pairs
+            .memories(|places| places.map(|place| grains.number[place as usize]), count);
+        let wall_memories = self.walls.memories(grains);
+        let period = self.interaction.period;
+        self.grains.wrap(period);
+        self.grains.sort();
+        let (search, skin) = match self.listing {
+            Listing::EveryStep(search) => (search, NO_SKIN),
+            Listing::Skin(Some(skin)) => (Search::Grid, skin * self.smallest),
+            Listing::Skin(None) => {
+                let wanted = 2.0 * fastest * self.interaction.time_step * LIST_STEPS;
+                (
+                    Search::Grid,
+                    wanted.clamp(SKIN[0] * self.smallest, SKIN[1] * self.smallest),
+                )
+            }
+        };
+        self.slack = 0.5 * skin;
+        let reach = skin
+            + self
+                .interaction
+                .attraction
+                .map_or(0.0, |attraction| attraction.reach());
+        let grains = &self.grains;
+        self.pairs = PairList::of_grains(grains, search, period, reach, &mut self.work.looked_at);
+        self.pairs.recall(
+            |places| places.map(|place| grains.number[place as usize]),
+            &memories,
+        );
+        self.walls.renew(grains, reach, &wall_memories);
+        self.work.lists += 1;
+        // The slices know the grains by their order.
+        if let Some(porosity) = &mut self.porosity {
+            porosity.refresh(&mut self.grains, &self.surroundings);
+        }
+    }
+
+    /// Sums the forces on all grains; histories move on by `elapsed` [s].
+    fn sum_forces(&mut self, elapsed: f64) {
+        let deepest = in_widest(PairSweep {
+            interaction: &self.interaction,
+            grains: &self.grains,
+            pairs: &mut self.pairs,
+            elapsed,
+            forces: &mut self.forces,
+        });
+        let at_walls = in_widest(WallSweep {
+            interaction: &self.interaction,
+            grains: &self.grains,
+            walls: &mut self.walls,
+            elapsed,
+            forces: &mut self.forces,
+        });
+        self.deepest = self.deepest.max(deepest).max(at_walls);
+        self.work.pairs += self.pairs.count as u64;
+    }
+}

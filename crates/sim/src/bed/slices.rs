@@ -1,0 +1,121 @@
+//! The fluid as grains see it: porosity of their slices, and the flow back through them.
+
+use crate::contact::Body;
+use crate::coupling::slices::{Measure, Slices};
+use crate::drag;
+
+use super::grains::Grains;
+use super::motion::Surroundings;
+
+/// Way a grain may go before porosities are summed anew, in slices.
+const WAY: f64 = 0.01;
+/// Time after which the return flow is summed anew, over the time in which drag stops a grain.
+const TIME: f64 = 0.02;
+
+/// Horizontal slices over all moving grains.
+#[derive(Clone, Debug)]
+pub struct Porosity {
+    slices: Slices,
+    height: f64,
+    /// Whether the vessel is closed: the fluid flows back through the grains.
+    closed: bool,
+    /// Whether grains of several densities share the drag on the mixture.
+    mixed: bool,
+    /// Time in which drag stops the lightest grain [s].
+    relaxation: f64,
+    way: f64,
+    time: f64,
+    sums: Vec<f64>,
+    pub refreshes: u64,
+}
+
+impl Porosity {
+    /// Slices of a height [m] over a cross-section [m²] (a width [m], by areas).
+    pub fn new(height: f64, area: f64, measure: Measure, closed: bool, mixed: bool, relaxation: f64) -> Self {
+        Porosity {
+            slices: Slices::new(0.0, height, area, measure),
+            height,
+            closed,
+            mixed,
+            relaxation,
+            way: f64::INFINITY,
+            time: f64::INFINITY,
+            sums: Vec::new(),
+            refreshes: 0,
+        }
+    }
+
+    /// Slices held at the least porosity, counted at every refresh.
+    pub fn clips(&self) -> u64 {
+        self.slices.clips()
+    }
+
+    /// Lets the fastest grain go its way [m] in a time [s]; says what the grains see where that has
+    /// changed by much.
+    pub fn follow(&mut self, grains: &mut Grains, surroundings: &Surroundings, way: f64, time: f64) {
+        self.way += way;
+        self.time += time;
+        let flows = (self.closed || self.mixed) && self.time > TIME * self.relaxation;
+        if self.way > WAY * self.height || flows {
+            self.refresh(grains, surroundings);
+        }
+    }
+
+    /// Says what the grains see now. The order of the grains must not change between two calls without
+    /// one of this.
+    pub fn refresh(&mut self, grains: &mut Grains, surroundings: &Surroundings) {
+        (self.way, self.time) = (0.0, 0.0);
+        self.refreshes += 1;
+        let moving = grains.moving;
+        let records = &grains.motion[..moving];
+        self.slices
+            .place(records.iter().map(|record| (record.0[2], record.0[3])));
+        let slices = &self.slices;
+        for (grain, spin) in grains.spin[..moving].iter_mut().enumerate() {
+            spin.0[4] = slices.sample(grain, slices.porosity());
+        }
+        if self.closed {
+            let speeds = records.iter().map(|record| record.0[6]);
+            self.slices.return_flow(speeds, &mut self.sums);
+            for (grain, spin) in grains.spin[..moving].iter_mut().enumerate() {
+                spin.0[5] = self.slices.sample(grain, &self.sums);
+            }
+        }
+        if self.mixed {
+            self.share_drag(grains, surroundings);
+        }
+    }
+
+    /// Model B for grains of several densities: f_i + (V_i/ε) Σ n_j f_j in place of f_i/ε, which counts
+    /// on all grains being dragged alike. Source: Anderson & Jackson (1967), Ind. Eng. Chem. Fundam. 6,
+    /// 527–539, for the forms of the pressure gradient.
+    fn share_drag(&mut self, grains: &mut Grains, surroundings: &Surroundings) {
+        let Some(law) = &surroundings.drag else { return };
+        let fluid = [surroundings.fluid_density, surroundings.viscosity];
+        let moving = grains.moving;
+        let drags: Vec<f64> = (0..moving)
+            .map(|grain| {
+                let [.., porosity, flow, _, _] = grains.spin[grain].0;
+                let slip = crate::math::Vec3::new(0.0, 0.0, flow) - grains.velocity(grain);
+                let superficial = porosity * slip.norm();
+                let diameter = 2.0 * grains.radius(grain);
+                porosity * slip.z * drag::coefficient(law, fluid, diameter, superficial, porosity)
+            })
+            .collect();
+        let volume = |grain: usize| Body::sphere(2.0 * grains.radius(grain), 1.0).mass;
+        self.slices.deposit(
+            (0..moving).map(|grain| drags[grain] / volume(grain)),
+            &mut self.sums,
+        );
+        let corrections: Vec<f64> = (0..moving)
+            .map(|grain| {
+                let porosity = grains.spin[grain].0[4];
+                let mean = self.slices.sample(grain, &self.sums);
+                (volume(grain) * mean - (1.0 - porosity) * drags[grain]) / porosity
+            })
+            .collect();
+        for (spin, correction) in grains.spin[..moving].iter_mut().zip(corrections) {
+            spin.0[6] = correction;
+        }
+    }
+}

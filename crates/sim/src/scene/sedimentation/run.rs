@@ -1,0 +1,410 @@
+//! The run of a sedimentation scene.
+
+use std::f64::consts::PI;
+
+use super::model::{Dimensions, Floor, Sedimentation, Sides, Until};
+use super::observe::{Measures, Settled, profile};
+use super::start::start;
+use super::step::limits;
+use crate::bed::{Astray, Bed};
+use crate::math::Vec3;
+use crate::outcome::{Column, Control, Counters, Failure, FailureKind, Outcome, Scalar, Table};
+
+/// Rows of the time series in a second of simulated time, at least and at most in a run.
+const ROWS: [f64; 2] = [100.0, 1000.0];
+/// Time between two rows [s] where the duration allows for it.
+const ROW: f64 = 5e-3;
+/// Rows over which a settled grain has not moved.
+const WINDOW: usize = 2;
+/// Overlap over the smaller diameter at which a run counts as diverged [-].
+const DEEPEST: f64 = 0.05;
+/// Drag relaxation times after which grains fall at their first speed.
+const START_UP: f64 = 6.0;
+
+/// Runs the scene to its end.
+///
+/// # Errors
+/// Grains without room, overlaps beyond 5 % of a diameter, a grain that leaps, or a stop from outside.
+pub fn run(scene: &Sedimentation, control: &Control) -> Result<Outcome, Box<Failure>> {
+    let bed = match start(scene) {
+        Ok(bed) => bed,
+        Err(fault) => {
+            let reason = format!("the grains do not find room: {fault}; {}", fault.help());
+            return Err(failed(FailureKind::Diverged, reason, Outcome::default()));
+        }
+    };
+    let limits = limits(scene);
+    let dt = limits.time_step;
+    let rows = (scene.duration / ROW).ceil().clamp(ROWS[0], ROWS[1]);
+    let steps = (scene.duration / dt).ceil().max(1.0) as u64;
+    let mut watch = Watch::new(scene, bed, limits.contact_time, dt);
+    watch.look(0);
+    let mut done = 0;
+    for row in 1..=rows as u64 {
+        let target = (row as f64 / rows * steps as f64).round() as u64;
+        while done < target {
+            // Often enough to be stopped within a moment, in any bed.
+            let batch = (target - done).min(watch.patience());
+            if let Err(astray) = watch.bed.advance(batch) {
+                let reason = leapt(&astray, (done + batch) as f64 * dt);
+                return Err(failed(FailureKind::Diverged, reason, watch.outcome()));
+            }
+            done += batch;
+            if (control.stop)() {
+                return Err(failed(
+                    FailureKind::Stopped,
+                    "stopped from outside".into(),
+                    watch.outcome(),
+                ));
+            }
+        }
+        watch.look(done);
+        if let Some(reason) = watch.diverged(done) {
+            return Err(failed(FailureKind::Diverged, reason, watch.outcome()));
+        }
+        (control.progress)(row as f64 / rows);
+        if scene.until == Until::Settled && watch.all_settled() {
+            break;
+        }
+    }
+    Ok(watch.outcome())
+}
+
+fn failed(kind: FailureKind, reason: String, partial: Outcome) -> Box<Failure> {
+    Box::new(Failure {
+        kind,
+        reason,
+        partial,
+    })
+}
+
+fn leapt(astray: &Astray, time: f64) -> String {
+    let (x, v) = (astray.position, astray.velocity);
+    format!(
+        "grain {} moves more than its radius in a step before t = {time:.6e} s: at ({:.4e}, {:.4e}, {:.4e}) m with \
+         ({:.3e}, {:.3e}, {:.3e}) m/s",
+        astray.grain, x.x, x.y, x.z, v.x, v.y, v.z
+    )
+}
+
+/// The run as it is recorded.
+struct Watch<'a> {
+    scene: &'a Sedimentation,
+    bed: Bed,
+    contact_time: f64,
+    dt: f64,
+    /// A terminal speed [m/s]: what counts as slow is measured by it.
+    speed: f64,
+    rows: Vec<(f64, Measures, f64)>,
+    /// Positions by number at the last rows.
+    places: std::collections::VecDeque<Vec<Vec3>>,
+    settled: Option<Settled>,
+    settling_time: f64,
+    first_speed: f64,
+    deepest: f64,
+    snapshots: Vec<Snapshot>,
+}
+
+/// One kept instant: a row per grain.
+type Snapshot = (f64, Vec<[f64; 9]>);
+
+impl<'a> Watch<'a> {
+    fn new(scene: &'a Sedimentation, bed: Bed, contact_time: f64, dt: f64) -> Self {
+        let speeds = scene
+            .extremes()
+            .into_iter()
+            .map(|(body, density)| scene.greatest_speed(&body, density));
+        Watch {
+            scene,
+            bed,
+            contact_time,
+            dt,
+            speed: speeds.fold(0.0, f64::max),
+            rows: Vec::new(),
+            places: std::collections::VecDeque::new(),
+            settled: None,
+            settling_time: f64::NAN,
+            first_speed: f64::NAN,
+            deepest: 0.0,
+            snapshots: Vec::new(),
+        }
+    }
+
+    /// Steps between two questions whether to stop.
+    fn patience(&self) -> u64 {
+        (2_000_000 / (self.bed.grains.len() as u64 + 1)).clamp(1, 1000)
+    }
+
+    fn look(&mut self, done: u64) {
+        let time = done as f64 * self.dt;
+        let before = (self.places.len() == WINDOW).then(|| self.places[0].as_slice());
+        let settled = Settled::of(&self.bed, before, self.speed);
+        let measures = Measures::of(self.scene, &self.bed, &settled);
+        let grains = &self.bed.grains;
+        let mut positions = vec![Vec3::zeros(); grains.len()];
+        for (place, &number) in grains.number.iter().enumerate() {
+            positions[number as usize] = grains.position(place);
+        }
+        self.places.push_back(positions);
+        if self.places.len() > WINDOW {
+            self.places.pop_front();
+        }
+        if measures.settled_share < 1.0 {
+            self.settling_time = f64::NAN;
+        } else if self.settling_time.is_nan() {
+            self.settling_time = time;
+        }
+        if self.first_speed.is_nan() && time >= START_UP * self.relaxation() {
+            self.first_speed = self.falling_speed(&settled);
+        }
+        let deepest = std::mem::take(&mut self.bed.deepest);
+        self.deepest = self.deepest.max(deepest);
+        self.rows.push((time, measures, deepest));
+        self.settled = Some(settled);
+        self.keep(time);
+    }
+
+    /// Time in which drag stops the slowest grain [s].
+    fn relaxation(&self) -> f64 {
+        let viscosity = self.scene.fluid.medium().viscosity;
+        let time = |radius: f64, mass: f64| mass / (6.0 * PI * viscosity * radius);
+        self.scene
+            .extremes()
+            .iter()
+            .map(|(body, _)| time(body.radius, body.mass))
+            .fold(0.0, f64::max)
+    }
+
+    /// Mean downward speed [m/s] of the grains in the middle of those that have not settled.
+    fn falling_speed(&self, settled: &Settled) -> f64 {
+        let grains = &self.bed.grains;
+        let mut falling: Vec<(f64, f64)> = (0..grains.moving)
+            .filter(|grain| !settled.grains[*grain] && settled.contacts[*grain] == 0)
+            .map(|grain| (grains.position(grain).z, -grains.velocity(grain).z))
+            .collect();
+        falling.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let middle = &falling[falling.len() / 4..falling.len() - falling.len() / 4];
+        middle.iter().map(|(_, speed)| speed).sum::<f64>() / middle.len() as f64
+    }
+
+    /// Keeps a snapshot where one is due.
+    fn keep(&mut self, time: f64) {
+        let wanted = self.scene.snapshots;
+        if wanted < 2 {
+            return;
+        }
+        let due = self.snapshots.len() as f64 * self.scene.duration / f64::from(wanted - 1);
+        if time + 0.5 * self.dt < due {
+            return;
+        }
+        let snapshot = self.snapshot(time);
+        self.snapshots.push(snapshot);
+    }
+
+    fn snapshot(&self, time: f64) -> Snapshot {
+        let grains = &self.bed.grains;
+        let contacts = self.settled.as_ref().map(|settled| &settled.contacts);
+        let row = |place: u32| {
+            let grain = place as usize;
+            let (x, v) = (grains.position(grain), grains.velocity(grain));
+            let class = match grains.class[grain] {
+                u16::MAX => -1.0,
+                class => f64::from(class),
+            };
+            let contacts = contacts.map_or(0.0, |contacts| f64::from(contacts[grain]));
+            [
+                class,
+                x.x,
+                x.y,
+                x.z,
+                grains.radius(grain),
+                v.x,
+                v.y,
+                v.z,
+                contacts,
+            ]
+        };
+        (time, grains.places().into_iter().map(row).collect())
+    }
+
+    fn all_settled(&self) -> bool {
+        self.rows
+            .last()
+            .is_some_and(|(_, measures, _)| measures.settled_share >= 1.0)
+    }
+
+    /// Why the run makes no sense any more.
+    fn diverged(&self, done: u64) -> Option<String> {
+        let time = done as f64 * self.dt;
+        let (_, measures, deepest) = self.rows.last()?;
+        if *deepest > DEEPEST {
+            let who = self
+                .bed
+                .deepest_contact()
+                .map_or(String::new(), |([i, j], depth)| {
+                    format!("; deepest now: grains {i} and {j} at {:.1} %", 100.0 * depth)
+                });
+            return Some(format!(
+                "an overlap of {:.1} % of the diameter before t = {time:.6e} s: stiffer contacts or a shorter step \
+                 are needed{who}",
+                100.0 * deepest
+            ));
+        }
+        // Nothing can move faster than the fall through the whole box makes it.
+        let most = 2.0 * self.scene.load() * self.scene.container.height;
+        (measures.kinetic_energy > most && most > 0.0).then(|| {
+            format!(
+                "the kinetic energy {:.3e} J at t = {time:.6e} s is over twice the work of gravity",
+                measures.kinetic_energy
+            )
+        })
+    }
+
+    /// Grains beyond the walls.
+    fn fallen_out(&self) -> usize {
+        let grains = &self.bed.grains;
+        let container = &self.scene.container;
+        let floor = match container.floor {
+            Floor::Flat => 0.0,
+            Floor::Grains { diameter } => -0.5 * diameter,
+        };
+        let out = |grain: &usize| {
+            let x = grains.position(*grain);
+            let beside = container.sides == Sides::Walls
+                && (x.x < 0.0
+                    || x.x > container.width
+                    || self.scene.dimensions == Dimensions::Three && (x.y < 0.0 || x.y > container.depth));
+            x.z < floor || beside
+        };
+        (0..grains.moving).filter(out).count()
+    }
+
+    fn outcome(&self) -> Outcome {
+        let mut tables = vec![self.time_series()];
+        let [heights, porosities] = profile(self.scene, &self.bed);
+        tables.push(Table {
+            name: "porosity_profile",
+            columns: vec![
+                column("height", "m", heights),
+                column("porosity", "1", porosities),
+            ],
+        });
+        if self.scene.snapshots > 1 {
+            tables.push(self.kept());
+        }
+        let work = &self.bed.work;
+        Outcome {
+            scalars: self.scalars(),
+            tables,
+            counters: Counters {
+                steps: work.steps,
+                grain_steps: work.steps,
+                grain_pairs: work.pairs,
+                searched_pairs: work.looked_at,
+                list_rebuilds: work.lists,
+                porosity_clips: self.bed.porosity.as_ref().map_or(0, |porosity| porosity.clips()),
+                ..Counters::default()
+            },
+        }
+    }
+
+    fn scalars(&self) -> Vec<Scalar> {
+        let last = self.rows.last().map_or(Measures::default(), |row| row.1);
+        let mut scalars = Vec::new();
+        let mut add = |name, unit, value| scalars.push(Scalar { name, unit, value });
+        if self.scene.dimensions == Dimensions::Two {
+            add("area_porosity", "1", last.area_porosity);
+        }
+        add("porosity", "1", last.porosity);
+        add("porosity_half", "1", last.porosity_half);
+        add("porosity_centre", "1", last.porosity_centre);
+        add("solids_fraction", "1", 1.0 - last.porosity);
+        add("thickness", "m", last.thickness);
+        add("permeability", "m²", last.permeability);
+        add("settling_time", "s", self.settling_time);
+        add("settled_share", "1", last.settled_share);
+        add("coordination", "1", last.coordination);
+        add("largest_overlap", "1", self.deepest);
+        add("momentum_error", "1", self.bed.momentum_error());
+        add("first_speed", "m/s", self.first_speed);
+        add("centre_of_mass", "m", last.centre_of_mass);
+        add("time_step", "s", self.dt);
+        add("contact_time", "s", self.contact_time);
+        add("grains_fallen_out", "1", self.fallen_out() as f64);
+        scalars
+    }
+
+    fn time_series(&self) -> Table {
+        let of =
+            |value: fn(&Measures) -> f64| self.rows.iter().map(|(_, measures, _)| value(measures)).collect();
+        Table {
+            name: "time_series",
+            columns: vec![
+                column("time", "s", self.rows.iter().map(|row| row.0).collect()),
+                column("thickness", "m", of(|measures| measures.thickness)),
+                column("porosity", "1", of(|measures| measures.porosity)),
+                column("settled_share", "1", of(|measures| measures.settled_share)),
+                column("centre_of_mass", "m", of(|measures| measures.centre_of_mass)),
+                column("top_height", "m", of(|measures| measures.top_height)),
+                column("mean_speed", "m/s", of(|measures| measures.mean_speed)),
+                column("kinetic_energy", "J", of(|measures| measures.kinetic_energy)),
+                column("coordination", "1", of(|measures| measures.coordination)),
+                column(
+                    "largest_overlap",
+                    "1",
+                    self.rows.iter().map(|row| row.2).collect(),
+                ),
+            ],
+        }
+    }
+
+    fn kept(&self) -> Table {
+        const FIELDS: [(&str, &str); 9] = [
+            ("class", "1"),
+            ("x", "m"),
+            ("y", "m"),
+            ("z", "m"),
+            ("radius", "m"),
+            ("speed_x", "m/s"),
+            ("speed_y", "m/s"),
+            ("speed_z", "m/s"),
+            ("coordination", "1"),
+        ];
+        // The end is kept as well where the run has ended early.
+        let time = self.rows.last().map_or(0.0, |row| row.0);
+        let missing = self.snapshots.last().is_none_or(|(kept, _)| *kept < time);
+        let last = missing.then(|| self.snapshot(time));
+        let all = || self.snapshots.iter().chain(&last);
+        let rows = || all().flat_map(|(_, rows)| rows);
+        let mut columns = vec![
+            column(
+                "time",
+                "s",
+                all()
+                    .flat_map(|(time, rows)| rows.iter().map(|_| *time))
+                    .collect(),
+            ),
+            column(
+                "grain",
+                "1",
+                all()
+                    .flat_map(|(_, rows)| (0..rows.len()).map(|number| number as f64))
+                    .collect(),
+            ),
+        ];
+        columns.extend(
+            FIELDS
+                .iter()
+                .enumerate()
+                .map(|(field, (name, unit))| column(name, unit, rows().map(|row| row[field]).collect())),
+        );
+        Table {
+            name: "snapshots",
+            columns,
+        }
+    }
+}
+
+fn column(name: &'static str, unit: &'static str, values: Vec<f64>) -> Column {
+    Column { name, unit, values }
+}

@@ -1,0 +1,81 @@
+//! How fast grains fall before they meet anything: estimates for the step and for what is told.
+
+use std::f64::consts::PI;
+
+use super::model::{GrainDrag, Sedimentation, StillFluid, Voidage};
+use crate::contact::Body;
+use crate::drag::{Dallavalle, DiFelice, DragLaw, SchillerNaumann, Stokes};
+use crate::math::bisect;
+use crate::scene::Medium;
+
+impl StillFluid {
+    pub fn medium(&self) -> &Medium {
+        match self {
+            StillFluid::Still(medium) | StillFluid::Column(medium) => medium,
+        }
+    }
+}
+
+impl Sedimentation {
+    /// Weight less buoyancy of a grain [N], sign off.
+    pub fn excess_weight(&self, grain: &Body, density: f64) -> f64 {
+        grain.mass * (1.0 - self.fluid.medium().density / density).abs() * self.gravity
+    }
+
+    /// Reynolds number of a grain at a superficial slip speed [m/s].
+    pub fn reynolds(&self, grain: &Body, slip: f64) -> f64 {
+        let medium = self.fluid.medium();
+        medium.density * 2.0 * grain.radius * slip / medium.viscosity
+    }
+
+    /// Drag per superficial slip β [kg/s] at a slip speed [m/s] and a porosity [-]; zero without drag.
+    pub fn drag_coefficient(&self, grain: &Body, slip: f64, porosity: f64) -> f64 {
+        let re = self.reynolds(grain, slip);
+        let sphere = match self.drag {
+            GrainDrag::None => 0.0,
+            GrainDrag::Stokes => Stokes.factor(re, porosity),
+            GrainDrag::Dallavalle => Dallavalle.factor(re, porosity),
+            GrainDrag::SchillerNaumann => SchillerNaumann.factor(re, porosity),
+        };
+        let neighbours = || DiFelice.factor(re, porosity) / Dallavalle.factor(re, porosity);
+        let voidage = match self.voidage {
+            Voidage::None => 1.0,
+            Voidage::DiFelice => neighbours(),
+            Voidage::AlvimLiteral => neighbours() / (porosity * porosity),
+        };
+        6.0 * PI * self.fluid.medium().viscosity * grain.radius * sphere * voidage
+    }
+
+    /// Speed [m/s] at which a grain falls among others at `porosity` once it no longer gains speed;
+    /// `None` where nothing stops it from gaining.
+    pub fn settling_speed(&self, grain: &Body, density: f64, porosity: f64) -> Option<f64> {
+        if self.drag == GrainDrag::None {
+            return None;
+        }
+        // Buoyancy of the pure fluid: the drag is divided by the porosity.
+        let force = porosity * self.excess_weight(grain, density);
+        let balance = |slip: f64| slip * self.drag_coefficient(grain, slip, porosity) - force;
+        let mut high = force / self.drag_coefficient(grain, 0.0, porosity);
+        while balance(high) < 0.0 {
+            high *= 2.0;
+        }
+        let slip = if force > 0.0 {
+            bisect(0.0, high, balance)
+        } else {
+            0.0
+        };
+        Some(match self.fluid {
+            StillFluid::Still(_) => slip / porosity,
+            // The return flow takes the rest.
+            StillFluid::Column(_) => slip,
+        })
+    }
+
+    /// Greatest speed [m/s] of an isolated grain that falls from rest through the box.
+    pub fn greatest_speed(&self, grain: &Body, density: f64) -> f64 {
+        let acceleration = self.excess_weight(grain, density) / grain.mass;
+        let free = (2.0 * acceleration * self.container.height).sqrt();
+        self.settling_speed(grain, density, 1.0)
+            .map_or(free, |speed| speed.min(free))
+    }
+}

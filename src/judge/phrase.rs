@@ -1,0 +1,119 @@
+//! An expectation in words.
+
+use super::words::{band, percent, relation, selection, significant};
+use crate::study::model::{Band, Check, Comparison, Norm, Relation};
+
+pub struct Phrase {
+    pub statement: String,
+    pub quantity: String,
+    pub band: String,
+}
+
+impl Phrase {
+    pub fn of(check: &Check) -> Phrase {
+        match check {
+            Check::Value { of, band } => value(of, band),
+            Check::Error {
+                of,
+                against,
+                below,
+                norm,
+            } => error((of, against), *below, *norm),
+            Check::Order {
+                of,
+                against,
+                over,
+                is,
+                within,
+            } => order((of, against, over), *is, *within),
+            Check::Monotone {
+                of,
+                over,
+                rising,
+                within_noise,
+            } => monotone(of, over, *rising, *within_noise),
+            Check::Compare(comparison) => compare(comparison),
+        }
+    }
+}
+
+fn value(of: &str, bounds: &Band) -> Phrase {
+    let words = band(bounds);
+    let link = match (bounds.above, bounds.below) {
+        (Some(_), Some(_)) => " in ",
+        _ => " ",
+    };
+    Phrase {
+        statement: format!("`{of}`{link}{words}"),
+        quantity: of.to_string(),
+        band: words,
+    }
+}
+
+fn error((of, against): (&str, &str), below: f64, norm: Norm) -> Phrase {
+    let error = match norm {
+        Norm::Maximum => "relative error",
+        Norm::RootMeanSquare => "relative root mean square error",
+    };
+    Phrase {
+        statement: format!(
+            "{error} of `{of}` against the reference `{against}` < {}",
+            percent(below)
+        ),
+        quantity: of.to_string(),
+        band: format!("< {}", significant(below, 6)),
+    }
+}
+
+fn order((of, against, over): (&str, &str, &str), is: f64, within: f64) -> Phrase {
+    let (order, tolerance) = (significant(is, 6), significant(within, 6));
+    Phrase {
+        statement: format!(
+            "order of the error of `{of}` against the reference `{against}` over `{over}` is {order} ± {tolerance}"
+        ),
+        quantity: format!("order of {of} over {over}"),
+        band: format!(
+            "{} to {}",
+            significant(is - within, 6),
+            significant(is + within, 6)
+        ),
+    }
+}
+
+fn monotone(of: &str, over: &str, rising: bool, within_noise: bool) -> Phrase {
+    let (direction, band) = match rising {
+        true => ("rises", "rising"),
+        false => ("falls", "falling"),
+    };
+    let noise = match within_noise {
+        true => ", up to the noise of its seeds",
+        false => "",
+    };
+    Phrase {
+        statement: format!("`{of}` {direction} with `{over}`{noise}"),
+        quantity: of.to_string(),
+        band: band.to_string(),
+    }
+}
+
+fn compare(comparison: &Comparison) -> Phrase {
+    let [first, second] = comparison.between.each_ref().map(selection);
+    let band = relation(comparison);
+    let link = match comparison.is {
+        Relation::Equal => "to that",
+        Relation::Greater | Relation::Less => "than",
+    };
+    let (word, margin) = band.split_once(' ').unwrap_or((&band, ""));
+    let margin = match margin {
+        "" => String::new(),
+        margin => format!(", {margin}"),
+    };
+    Phrase {
+        statement: format!(
+            "`{}` at {first} is {word} {link} at {second}{margin}",
+            comparison.of
+        ),
+        quantity: comparison.of.clone(),
+        band,
+    }
+}
