@@ -109,7 +109,11 @@ impl Reader<'_, '_> {
     pub(super) fn reference(&mut self, name: &str, of: Option<&String>) {
         let works = self.context.works.values();
         let offered: Vec<Observable> = works.flat_map(observables).collect();
-        let found = || offered.iter().filter(|found| of.is_some_and(|of| found.name == of));
+        let found = || {
+            offered
+                .iter()
+                .filter(|found| of.is_some_and(|of| found.name == of))
+        };
         let kinds: Vec<ObservableKind> = found().map(|found| found.kind).collect();
         let other_dimension = |name: &str| {
             let data = published().iter().find(|entry| entry.name == name);

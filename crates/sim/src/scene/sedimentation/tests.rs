@@ -367,9 +367,3 @@ fn names_are_distinct_and_fit_the_dimensions() {
     assert!(!bare.iter().any(|one| one.name == "snapshots"));
     assert!(bare.iter().any(|one| one.kind == ObservableKind::Profile));
 }
-
-#[test]
-fn a_run_that_cannot_be_made_says_so() {
-    let failure = run(&Scene::Sedimentation(box_of_grains()), &Control::SILENT).expect_err("a failure");
-    assert!(failure.reason.contains("cannot be run yet"), "{}", failure.reason);
-}
