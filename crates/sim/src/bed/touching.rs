@@ -46,9 +46,9 @@ impl Bed {
         in_widest(PairSweep {
             interaction: &self.interaction,
             grains: &self.grains,
-            pairs: &mut pairs,
+            pairs: pairs.whole(),
             elapsed: 0.0,
-            forces: &mut forces,
+            sink: &mut forces[..],
         });
         let (mut sum, mut sizes) = (Vec3::zeros(), 0.0);
         for force in &forces[..self.grains.len()] {

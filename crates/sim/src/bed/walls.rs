@@ -2,7 +2,7 @@
 
 use crate::contact::{Couple, Meeting, Motion, Touch};
 use crate::math::{Vec3, Vector};
-use crate::neighbours::{LANES, Record, Wide, WideWork};
+use crate::neighbours::{Record, Wide, WideWork};
 
 use super::contacts::{Interaction, add, effort, remember, remembered};
 use super::grains::Grains;
@@ -157,8 +157,8 @@ impl WideWork for WallSweep<'_> {
                 force = force - normal * attraction.to_wall(&meeting, a[3]);
             }
             let efforts = effort(force, torque);
-            for lane in 0..LANES {
-                add(&mut self.forces[first[lane] as usize], &efforts[lane]);
+            for (grain, effort) in first.iter().zip(&efforts) {
+                add(&mut self.forces[*grain as usize], effort);
             }
         }
         deepest.lanes().into_iter().fold(0.0, f64::max)

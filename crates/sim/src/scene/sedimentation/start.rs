@@ -63,7 +63,8 @@ pub fn start(scene: &Sedimentation) -> Result<Bed, Fault> {
         surroundings,
         listing,
         porosity(scene),
-    ))
+    )
+    .with_threads(scene.threads as usize))
 }
 
 /// Sizes and classes of all moving grains; sizes of a spread class are drawn in turn.
