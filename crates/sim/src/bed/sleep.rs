@@ -2,7 +2,8 @@
 //!
 //! A grain falls asleep when it and all whom it touches have been slow for a while. Pairs of sleepers
 //! are not evaluated; what the awake ones do to a sleeper is compared with what they did when it fell
-//! asleep, and a change by more than a small share of its weight wakes it and its neighbours.
+//! asleep, and a change by more than a small share of its weight wakes it and its neighbours. Spin does
+//! not keep a grain awake: one that turns on the spot goes nowhere.
 
 use crate::math::Vec3;
 use crate::neighbours::Record;
@@ -15,7 +16,7 @@ const REVIEW: u64 = 50;
 /// Reviews over which a grain must have been slow.
 const REVIEWS: u8 = 4;
 /// Slow is a speed under this share of √(g d) [-].
-const SLOW: f64 = 1e-4;
+const SLOW: f64 = 4e-4;
 /// Change of force that wakes a sleeper, over its weight [-].
 const NUDGE: f64 = 0.02;
 
@@ -157,7 +158,7 @@ impl Bed {
             }
             let radius = grains.radius(grain);
             let limit = SLOW * (2.0 * radius * self.surroundings.gravity).sqrt();
-            let speed = grains.velocity(grain).norm() + radius * grains.angular_velocity(grain).norm();
+            let speed = grains.velocity(grain).norm();
             let slow = &mut sleep.slow[grains.number[grain] as usize];
             *slow = if speed < limit { slow.saturating_add(1) } else { 0 };
             *ready = *slow >= REVIEWS;
