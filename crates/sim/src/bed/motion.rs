@@ -42,7 +42,7 @@ pub struct KickAndDrift<'a> {
 }
 
 /// Returns the greatest speed [m/s]: infinite where a grain is beyond the limit or has no number for
-/// its velocity.
+/// its velocity or its position.
 impl WideWork for KickAndDrift<'_> {
     type Output = f64;
 
@@ -101,12 +101,14 @@ fn eight<W: Wide>(step: &KickAndDrift, motion: [W; 8], spin: [W; 8], forces: [W;
         }
     };
     let turn = inverse_inertia * kick;
-    let drift = W::splat(step.drift);
+    let position = Vector::new(x, y, z) + velocity * W::splat(step.drift);
+    // Zero, but no number where a coordinate is none or infinite.
+    let nothing = (position.x + position.y + position.z) * W::splat(0.0);
     (
         [
-            x + velocity.x * drift,
-            y + velocity.y * drift,
-            z + velocity.z * drift,
+            position.x,
+            position.y,
+            position.z,
             radius,
             velocity.x,
             velocity.y,
@@ -123,7 +125,7 @@ fn eight<W: Wide>(step: &KickAndDrift, motion: [W; 8], spin: [W; 8], forces: [W;
             neighbours,
             spare,
         ],
-        velocity.norm_squared(),
+        velocity.norm_squared() + nothing,
     )
 }
 
