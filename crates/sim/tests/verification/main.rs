@@ -1,5 +1,6 @@
 //! What the simulator must show: closed forms, observed orders, conservation, failures, bit identity.
 
+mod beds;
 mod coupled;
 mod failures;
 mod hydrostatics;
