@@ -31,10 +31,10 @@ impl Oracle {
                 }
             }
         }
-        for i in 0..count {
+        for (i, sum) in efforts.iter_mut().enumerate() {
             for (number, wall) in walls.iter().enumerate() {
                 if let Some(effort) = self.wall(bed, i, number, wall, elapsed) {
-                    add(&mut efforts[i], effort);
+                    add(sum, effort);
                 }
             }
         }
