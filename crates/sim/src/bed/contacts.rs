@@ -17,6 +17,10 @@ const IN_CACHE: usize = 16_384;
 /// The contact laws of a bed.
 pub type Laws = ContactLaws<AnyNormal, AnyTangential, AnyRolling>;
 
+/// Contacts that may hold a grain at once: each may stop this part of its slip and its rolling in a
+/// step. Were each to stop it all, together they would turn it about, and a bed would never come to rest.
+const SHARE: f64 = 0.25;
+
 /// What the evaluation of a pair needs to know beside the two grains.
 #[derive(Clone, Copy, Debug)]
 pub struct Interaction {
@@ -75,6 +79,11 @@ fn couple<W: Wide>(a: &Party<W>, b: &Party<W>) -> Couple<W> {
 }
 
 impl Interaction {
+    /// Time in which one contact may stop the slip and the rolling of its grains [s].
+    pub(super) fn stopping_time(&self) -> f64 {
+        self.time_step / SHARE
+    }
+
     /// Forces in a block, or `None` where nobody touches or attracts anybody.
     ///
     /// `deepest` collects the greatest overlap over the smaller diameter.
@@ -120,7 +129,7 @@ impl Interaction {
             let touch = Touch::new(&couple, &meeting, [&a.motion, &b.motion]);
             let (reaction, displacement) =
                 self.laws
-                    .react(&touch, remembered(history), elapsed, self.time_step);
+                    .react(&touch, remembered(history), elapsed, self.stopping_time());
             force = Vector::select(touches, reaction.force, force);
             torques = [
                 Vector::select(touches, reaction.torques[0], Vector::zeros()),

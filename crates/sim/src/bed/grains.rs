@@ -125,8 +125,12 @@ impl Grains {
 
     /// Brings positions back into [0, side) of the periodic directions.
     pub(super) fn wrap(&mut self, period: Period) {
+        let (grains, empty) = self.motion.split_at_mut(self.number.len());
         for (axis, &side) in period.iter().enumerate().filter(|(_, side)| **side > 0.0) {
-            for record in &mut self.motion {
+            // What empty lanes point at stays as far apart as it can: sides that divide a metre would
+            // bring them together.
+            (empty[0].0[axis], empty[1].0[axis]) = (0.0, 0.5 * side);
+            for record in grains.iter_mut() {
                 let position = &mut record.0[axis];
                 *position -= side * (*position / side).floor();
                 // Rounding may leave a tiny negative number at the full side.
@@ -140,15 +144,14 @@ impl Grains {
     /// Stores the moving grains along a curve that keeps neighbours together: shared cache lines are
     /// worth a third of the time of a large bed. The order follows from the positions alone.
     pub(super) fn sort(&mut self) {
-        let radii: f64 = self.motion[..self.moving].iter().map(|record| record.0[3]).sum();
-        if radii == 0.0 {
-            return;
-        }
-        let width = 2.0 * radii / self.moving as f64;
         let mut low = [f64::INFINITY; 3];
+        let (mut smallest, mut largest) = (f64::INFINITY, 0.0_f64);
         for record in &self.motion[..self.moving] {
             (0..3).for_each(|axis| low[axis] = low[axis].min(record.0[axis]));
+            (smallest, largest) = (smallest.min(record.0[3]), largest.max(record.0[3]));
         }
+        // No sum over the grains: its rounding would depend on the order they come in.
+        let width = smallest + largest;
         let mut order: Vec<(u64, u32)> = (0..self.moving)
             .map(|grain| {
                 let position = &self.motion[grain].0;

@@ -12,6 +12,8 @@ mod pairs;
 mod scheme;
 mod sleep;
 mod slices;
+#[cfg(test)]
+mod tests;
 mod touching;
 mod walls;
 
@@ -205,7 +207,10 @@ impl Bed {
     }
 
     fn astray(&self, limit: f64) -> Astray {
-        let sound = |grain: &usize| self.grains.velocity(*grain).norm() < limit;
+        let sound = |grain: &usize| {
+            let place = self.grains.position(*grain);
+            place.iter().all(|x| x.is_finite()) && self.grains.velocity(*grain).norm() < limit
+        };
         let grain = (0..self.grains.moving).find(|grain| !sound(grain)).unwrap_or(0);
         Astray {
             grain: self.grains.number[grain],

@@ -54,7 +54,7 @@ const NOBODY: [Record; 3] = [
 ];
 
 /// Returns the greatest speed [m/s]: infinite where a grain is beyond the limit or has no number for
-/// its velocity.
+/// its velocity or its position.
 impl WideWork for KickAndDrift<'_> {
     type Output = f64;
 
@@ -126,12 +126,14 @@ fn eight<W: Wide>(
     // Sleepers stay where they are.
     let velocity = velocity * awake;
     let turn = inverse_inertia * kick;
-    let drift = W::splat(stride.drift);
+    let position = Vector::new(x, y, z) + velocity * W::splat(stride.drift);
+    // Zero, but no number where a coordinate is none or infinite.
+    let nothing = (position.x + position.y + position.z) * W::splat(0.0);
     (
         [
-            x + velocity.x * drift,
-            y + velocity.y * drift,
-            z + velocity.z * drift,
+            position.x,
+            position.y,
+            position.z,
             radius,
             velocity.x,
             velocity.y,
@@ -148,7 +150,7 @@ fn eight<W: Wide>(
             neighbours,
             awake,
         ],
-        velocity.norm_squared(),
+        velocity.norm_squared() + nothing,
     )
 }
 

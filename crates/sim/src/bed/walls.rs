@@ -115,7 +115,9 @@ impl WideWork for WallSweep<'_> {
             let normal = Vector::new(wall[0], wall[1], wall[2]);
             let position = Vector::new(a[0], a[1], a[2]);
             let height = normal.dot(&position) - wall[3];
-            let meeting = Meeting::of_sphere_and_wall(a[3], height, normal);
+            let mut meeting = Meeting::of_sphere_and_wall(a[3], height, normal);
+            // What empty lanes point at may lie behind the wall.
+            meeting.overlap = W::select(zero.below(a[3]), meeting.overlap, W::splat(f64::NEG_INFINITY));
             let reach = match &self.interaction.attraction {
                 Some(attraction) => attraction.reach(),
                 None => 0.0,
@@ -151,10 +153,12 @@ impl WideWork for WallSweep<'_> {
             let touches = zero.below(meeting.overlap);
             let touch = Touch::new(&couple, &meeting, [&grain, &still]);
             let interaction = self.interaction;
-            let (reaction, displacement) =
-                interaction
-                    .laws
-                    .react(&touch, remembered(history), self.elapsed, interaction.time_step);
+            let (reaction, displacement) = interaction.laws.react(
+                &touch,
+                remembered(history),
+                self.elapsed,
+                interaction.stopping_time(),
+            );
             *live = remember(history, touches, displacement);
             let mut force = Vector::select(touches, reaction.force, Vector::zeros());
             let torque = Vector::select(touches, reaction.torques[0], Vector::zeros());

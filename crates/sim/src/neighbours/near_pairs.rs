@@ -187,10 +187,18 @@ impl Grid {
                 }
             }),
             per_width: std::array::from_fn(|axis| {
-                if extent[axis] > 0.0 {
-                    counts[axis] as f64 / extent[axis]
-                } else {
-                    0.0
+                match extent[axis] {
+                    // Never narrower than the search is wide, not even around members in one plane:
+                    // smaller spheres look in from outside.
+                    extent if extent > 0.0 => {
+                        let fitting = counts[axis] as f64 / extent;
+                        if periodic[axis] {
+                            fitting
+                        } else {
+                            fitting.min(1.0 / width)
+                        }
+                    }
+                    _ => 0.0,
                 }
             }),
             counts,
@@ -254,7 +262,10 @@ impl Grid {
         }
         // The sphere itself may lie outside the grid of the larger ones.
         let cell = ((position - self.origin[axis]) * self.per_width[axis]).floor() as isize;
-        let (low, high) = ((cell - 1).max(0), (cell + 1).min(count - 1));
+        let (low, high) = (
+            cell.saturating_sub(1).max(0),
+            cell.saturating_add(1).min(count - 1),
+        );
         if low > high {
             return [NONE, NONE];
         }
@@ -345,6 +356,24 @@ mod tests {
             "{} for {alone}",
             looked_at(&spheres)
         );
+    }
+
+    #[test]
+    fn large_spheres_nearly_in_one_plane_are_found_from_above_and_below() {
+        let sphere = |x: f64, y: f64, z: f64, radius: f64| Record([x, y, z, radius, 0.0, 0.0, 0.0, 0.0]);
+        let spheres = [
+            sphere(0.0, 0.0, 0.0, 1.0),
+            sphere(2.5, 1e-6, 1e-4, 1.0),
+            sphere(0.0, 0.3, 1.0, 0.1),
+            sphere(2.5, -1.05, 0.0, 0.1),
+            sphere(0.0, 0.0, -1.08, 0.1),
+        ];
+        for search in [Search::Grid, Search::BruteForce] {
+            assert_eq!(
+                pairs(search, &spheres, 5, [0.0; 3], 0.01),
+                [(0, 2), (0, 4), (1, 3)]
+            );
+        }
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! What the simulator must show: closed forms, observed orders, conservation, failures, bit identity.
 
 mod beads;
+mod beds;
 mod coupled;
 mod failures;
 mod hydrostatics;
