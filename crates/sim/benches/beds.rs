@@ -177,6 +177,7 @@ fn bed(size: Vec3, spheres: &[(Vec3, f64)], walls: bool, rolling: bool) -> Bed {
             sphere: SphereDrag::Stokes,
             voidage: AnyVoidage::None,
         }),
+        lift: false,
     };
     let planes = if walls { &planes[..] } else { &[] };
     Bed::new(

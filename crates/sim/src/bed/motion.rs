@@ -9,7 +9,7 @@
 
 use std::f64::consts::PI;
 
-use crate::drag::{self, AnyDrag};
+use crate::drag::{self, AnyDrag, LiftLaw, Magnus, Whirl};
 use crate::math::{Number, Vector, elementary};
 use crate::neighbours::{LANES, Record, Wide, WideWork};
 
@@ -24,6 +24,8 @@ pub struct Surroundings {
     pub viscosity: f64,
     /// Drag of the superficial slip; `None` leaves drag out.
     pub drag: Option<AnyDrag>,
+    /// Whether a grain that spins is lifted across its slip (Magnus).
+    pub lift: bool,
 }
 
 /// Moves grains on and clears their forces.
@@ -110,6 +112,16 @@ fn eight<W: Wide>(
     let mut push = Vector::new(forces[0], forces[1], forces[2] + buoyancy + neighbours) * inverse_mass;
     push.z = push.z - W::splat(surroundings.gravity);
     let velocity = Vector::new(vx, vy, vz);
+    if surroundings.lift {
+        let whirl = Whirl {
+            slip: Vector::new(W::splat(0.0), W::splat(0.0), fluid) - velocity,
+            // Slices flow up or down as a whole.
+            vorticity: Vector::zeros(),
+            spin: Vector::new(wx, wy, wz),
+        };
+        let medium = [surroundings.fluid_density, surroundings.viscosity];
+        push = push + Magnus.force(medium, radius + radius, &whirl) * inverse_mass;
+    }
     let kick = W::splat(stride.kick);
     let velocity = match &surroundings.drag {
         None => velocity + push * kick,

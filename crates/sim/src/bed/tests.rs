@@ -23,6 +23,7 @@ const SPACE: Surroundings = Surroundings {
     fluid_density: 0.0,
     viscosity: 0.0,
     drag: None,
+    lift: false,
 };
 
 fn normals() -> Vec<AnyNormal> {

@@ -20,6 +20,7 @@ pub const SPACE: Surroundings = Surroundings {
     fluid_density: 0.0,
     viscosity: 0.0,
     drag: None,
+    lift: false,
 };
 
 /// E* of soft glass [Pa].

@@ -19,6 +19,7 @@ fn bits<W: Wide>(interaction: Interaction, walls: &[Wall], drag: AnyDrag) -> Vec
         fluid_density: 1000.0,
         viscosity: 1e-3,
         drag: Some(drag),
+        lift: false,
     };
     for spin in &mut bed.grains.spin {
         (spin.0[4], spin.0[5], spin.0[6]) = (0.7, 1e-3, 1e-9);

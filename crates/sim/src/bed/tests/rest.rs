@@ -92,6 +92,7 @@ fn settled(grains: Grains, walls: &[Wall], laws: Laws, steps: u64) -> Bed {
             sphere: SphereDrag::Stokes,
             voidage: AnyVoidage::None,
         }),
+        lift: false,
     };
     let mut bed = Bed::new(grains, walls, interaction, water, Listing::Skin(None), None);
     bed.advance(steps).expect("no grain leaps");

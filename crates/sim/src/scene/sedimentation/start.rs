@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use super::model::{
-    Arrangement, Detection, Dimensions, Floor, GrainDrag, Sedimentation, Sides, SlicePorosity, StillFluid,
-    Voidage,
+    Arrangement, Detection, Dimensions, Floor, GrainDrag, Lift, Sedimentation, Sides, SlicePorosity,
+    StillFluid, Voidage,
 };
 use super::step::limits;
 use crate::arrangement::{self, Fault, Region};
@@ -50,6 +50,7 @@ pub fn start(scene: &Sedimentation) -> Result<Bed, Fault> {
         fluid_density: fluid.density,
         viscosity: fluid.viscosity,
         drag: drag(scene),
+        lift: scene.lift == Lift::Magnus,
     };
     let listing = match scene.detection {
         Detection::List { skin } => Listing::Skin(skin),

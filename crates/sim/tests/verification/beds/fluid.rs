@@ -17,6 +17,7 @@ fn water(viscosity: f64, sphere: SphereDrag, voidage: AnyVoidage) -> Surrounding
         fluid_density: 1000.0,
         viscosity,
         drag: Some(AnyDrag { sphere, voidage }),
+        lift: false,
     }
 }
 
@@ -200,4 +201,25 @@ fn grains_of_two_densities_fall_at_5_11_and_1_38_millimetres_per_second_when_dra
             );
         }
     }
+}
+
+#[test]
+fn a_spinning_grain_drifts_across_its_fall_as_rubinow_and_keller_say() {
+    let (diameter, viscosity, spin) = (250e-6, 1e-3, 40.0);
+    let mut grains = vec![grain(diameter, 2460.0, Vec3::zeros())];
+    grains[0].angular_velocity = Vec3::new(0.0, spin, 0.0);
+    let mut setup = Setup::new(grains, smooth(normals()[0]), 1e-5);
+    setup.surroundings = Surroundings {
+        lift: true,
+        ..water(viscosity, SphereDrag::Stokes, AnyVoidage::None)
+    };
+    let mut bed = setup.bed();
+    bed.advance(20_000).expect("no grain leaps");
+    // Stokes drag against weight and a force k × the drag across the motion turns and slows the fall.
+    let k = diameter * diameter * 1000.0 * spin / (24.0 * viscosity);
+    let terminal = 1460.0 * GRAVITY * diameter * diameter / (18.0 * viscosity);
+    let velocity = bed.grains.velocity(0);
+    let (across, down) = (-velocity.x, -velocity.z);
+    assert!((across / down / k - 1.0).abs() < 1e-6, "{across} to {down}, {k}");
+    assert!((down * (1.0 + k * k) / terminal - 1.0).abs() < 1e-6);
 }
