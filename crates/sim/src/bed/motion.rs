@@ -62,40 +62,61 @@ impl WideWork for KickAndDrift<'_> {
 
     #[inline(always)]
     fn run<W: Wide>(self) -> f64 {
-        const ALL: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7];
         let mut fastest = W::splat(0.0);
-        let limit = W::splat(self.stride.limit * self.stride.limit);
-        let eights = self.motion.chunks_mut(LANES).zip(self.spin.chunks_mut(LANES));
-        for ((motion, spin), forces) in eights.zip(self.forces.chunks_mut(LANES)) {
-            let count = motion.len();
-            let mut filled = NOBODY.map(|nobody| [nobody; LANES]);
-            let lanes = if count == LANES {
-                [
-                    W::gather(motion, &ALL),
-                    W::gather(spin, &ALL),
-                    W::gather(forces, &ALL),
-                ]
-            } else {
-                filled[0][..count].copy_from_slice(motion);
-                filled[1][..count].copy_from_slice(spin);
-                filled[2][..count].copy_from_slice(forces);
-                [
-                    W::gather(&filled[0], &ALL),
-                    W::gather(&filled[1], &ALL),
-                    W::gather(&filled[2], &ALL),
-                ]
-            };
-            let (moved, turned, squared) = eight(self.surroundings, &self.stride, lanes);
-            let sound = squared.below(limit);
-            fastest = W::select(sound, fastest.max(squared), W::splat(f64::INFINITY));
-            motion.copy_from_slice(&W::records(moved)[..count]);
-            spin.copy_from_slice(&W::records(turned)[..count]);
-            if self.stride.drift > 0.0 {
-                forces.fill(Record::default());
-            }
+        let (motion, last_motion) = self.motion.as_chunks_mut::<LANES>();
+        let (spin, last_spin) = self.spin.as_chunks_mut::<LANES>();
+        let (forces, last_forces) = self.forces.as_chunks_mut::<LANES>();
+        for ((motion, spin), forces) in motion.iter_mut().zip(spin).zip(forces) {
+            fastest = advance(self.surroundings, &self.stride, motion, spin, forces, fastest);
+        }
+        if !last_motion.is_empty() {
+            let count = last_motion.len();
+            let [mut motion, mut spin, mut forces] =
+                [[NOBODY[0]; LANES], [NOBODY[1]; LANES], [NOBODY[2]; LANES]];
+            motion[..count].copy_from_slice(last_motion);
+            spin[..count].copy_from_slice(last_spin);
+            forces[..count].copy_from_slice(last_forces);
+            fastest = advance(
+                self.surroundings,
+                &self.stride,
+                &mut motion,
+                &mut spin,
+                &mut forces,
+                fastest,
+            );
+            last_motion.copy_from_slice(&motion[..count]);
+            last_spin.copy_from_slice(&spin[..count]);
+            last_forces.copy_from_slice(&forces[..count]);
         }
         fastest.lanes().into_iter().fold(0.0, f64::max).sqrt()
     }
+}
+
+/// Moves eight grains on; gives back the greatest speed squared so far, infinite once one is beyond the
+/// limit or no number.
+#[inline(always)]
+fn advance<W: Wide>(
+    surroundings: &Surroundings,
+    stride: &Stride,
+    motion: &mut [Record; LANES],
+    spin: &mut [Record; LANES],
+    forces: &mut [Record; LANES],
+    fastest: W,
+) -> W {
+    const ALL: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7];
+    let lanes = [
+        W::gather(motion, &ALL),
+        W::gather(spin, &ALL),
+        W::gather(forces, &ALL),
+    ];
+    let (moved, turned, squared) = eight(surroundings, stride, lanes);
+    *motion = W::records(moved);
+    *spin = W::records(turned);
+    if stride.drift > 0.0 {
+        *forces = [NOBODY[2]; LANES];
+    }
+    let sound = squared.below(W::splat(stride.limit * stride.limit));
+    W::select(sound, fastest.max(squared), W::splat(f64::INFINITY))
 }
 
 /// New motion and spin of eight grains, and their speeds squared.
