@@ -373,3 +373,21 @@ fn a_run_that_cannot_be_made_says_so() {
     let failure = run(&Scene::Sedimentation(box_of_grains()), &Control::SILENT).expect_err("a failure");
     assert!(failure.reason.contains("cannot be run yet"), "{}", failure.reason);
 }
+
+#[test]
+fn cohesive_grains_of_any_number_settle_between_periodic_sides() {
+    // Lanes are left over in the blocks of eight grains and of eight pairs.
+    for number in [11, 12] {
+        let mut scene = box_of_grains();
+        scene.classes[0].number = number;
+        scene.container.width = 1e-3;
+        scene.container.depth = 1e-3;
+        scene.container.height = 2e-3;
+        scene.container.sides = Sides::Periodic;
+        scene.duration = 0.1;
+        scene.snapshots = 0;
+        let outcome = run(&Scene::Sedimentation(scene), &Control::SILENT).expect("a bed");
+        let settled = outcome.scalars.iter().find(|one| one.name == "settled_share");
+        assert!(settled.is_some_and(|one| one.value > 0.9), "{settled:?}");
+    }
+}
