@@ -3,6 +3,7 @@
 //! `study → store → runner`; `reference`, `judge` and `report` never see the runner or the simulator.
 
 pub mod cli;
+pub mod export;
 pub mod judge;
 pub mod reference;
 pub mod report;

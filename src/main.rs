@@ -7,6 +7,7 @@ use kynch::cli::actions::{explain, for_each, make_report, run, show_plan, verify
 use kynch::cli::arguments::Arguments;
 use kynch::cli::command::{Command, completions};
 use kynch::cli::console::Console;
+use kynch::cli::extract::extract;
 use kynch::cli::status::{Problem, Status};
 use kynch::store::Store;
 
@@ -36,6 +37,7 @@ fn perform(console: &Console, command: &Command) -> Result<Status, Problem> {
         Command::Report(job, reporting) => for_each(console, job, Store::read, |study, store, options| {
             make_report(console, study, store, options, reporting)
         }),
+        Command::Export(job, extraction) => extract(console, job, extraction),
         Command::Explain(names) => explain(console, names),
         Command::Verify(store) => verify(console, store),
         Command::List => tell(console, &kynch::cli::list(console.paint)),

@@ -65,6 +65,18 @@ pub enum Action {
         #[command(flatten)]
         reporting: Reporting,
     },
+    /// Write the stored tables of one point for other programs: CSV, or VTK for ParaView
+    Export {
+        /// Name of a file in studies/ (here or in a folder above), or a path to a study file
+        #[arg(value_name = "STUDY")]
+        name: String,
+        #[command(flatten)]
+        place: Place,
+        #[command(flatten)]
+        choice: Choice,
+        #[command(flatten)]
+        extract: Extract,
+    },
     /// List studies, scenes, drag laws and references, one line each
     List,
     /// Put the scenes of each study into words: equations, dimensionless numbers, warnings
@@ -104,6 +116,31 @@ pub struct Choice {
     pub only: Vec<String>,
     #[command(flatten)]
     pub replicates: Replicates,
+}
+
+#[derive(Debug, Args)]
+pub struct Extract {
+    /// The point by its number in `kynch plan`
+    #[arg(long, value_name = "N", conflicts_with = "only")]
+    pub point: Option<usize>,
+    /// Only the kept time nearest to this one: 0.1s, 20ms
+    #[arg(long, value_name = "TIME")]
+    pub time: Option<String>,
+    /// csv: every table; vtk: the grains of the snapshots
+    #[arg(long, value_enum)]
+    pub format: ExportFormat,
+    /// Only this table
+    #[arg(long, value_name = "NAME")]
+    pub table: Option<String>,
+    /// Folder that receives the files
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ExportFormat {
+    Vtk,
+    Csv,
 }
 
 #[derive(Debug, Args)]

@@ -6,10 +6,11 @@ use std::time::Duration;
 use clap::CommandFactory;
 use clap_complete::Shell;
 
-use super::arguments::{Action, Arguments, Choice, Limits, Place, Reporting, Studies};
+use super::arguments::{Action, Arguments, Choice, ExportFormat, Extract, Limits, Place, Reporting, Studies};
 use super::magnitude::{bytes, duration};
 use super::selection::only;
 use super::status::Problem;
+use crate::export::{Format, Wanted};
 use crate::runner::Options;
 
 /// One thing to do.
@@ -19,11 +20,20 @@ pub enum Command {
     Plan(Job),
     Run(Job),
     Report(Job, Reporting),
+    Export(Job, Extraction),
     List,
     Explain(Vec<String>),
     Schema,
     Verify(PathBuf),
     Completions(Shell),
+}
+
+/// One point's tables for other programs.
+#[derive(Debug)]
+pub struct Extraction {
+    pub point: Option<usize>,
+    pub wanted: Wanted,
+    pub out: PathBuf,
 }
 
 /// Some studies, the store they live in and how to treat their points.
@@ -78,6 +88,16 @@ impl Command {
                 };
                 Command::Report(Job::new(studies, place, everything, None)?, reporting)
             }
+            Action::Export {
+                name,
+                place,
+                choice,
+                extract,
+            } => {
+                let studies = Studies { names: vec![name] };
+                let extraction = Extraction::new(extract)?;
+                Command::Export(Job::new(studies, place, choice, None)?, extraction)
+            }
             Action::List => Command::List,
             Action::Explain { studies } => Command::Explain(studies.names),
             Action::Schema => Command::Schema,
@@ -85,6 +105,44 @@ impl Command {
             Action::Completions { shell } => Command::Completions(shell),
         })
     }
+}
+
+impl Extraction {
+    fn new(extract: Extract) -> Result<Extraction, Problem> {
+        let format = match extract.format {
+            ExportFormat::Vtk => Format::Vtk,
+            ExportFormat::Csv => Format::Csv,
+        };
+        Ok(Extraction {
+            point: extract.point,
+            wanted: Wanted {
+                format,
+                time: understood("--time", &extract.time, instant)?,
+                table: extract.table,
+            },
+            out: extract.out,
+        })
+    }
+}
+
+/// A time of a run [s]: a number, or one with a unit, blanks or none between them.
+fn instant(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let digits = |letter: char| letter.is_ascii_digit() || "+-.".contains(letter);
+    let unit = text
+        .find(|letter: char| !digits(letter) && letter != 'e')
+        .unwrap_or(text.len());
+    let (number, unit) = (text[..unit].trim(), text[unit..].trim());
+    let factor = match unit {
+        "" | "s" => Some(1.0),
+        "ms" => Some(1e-3),
+        "us" | "µs" => Some(1e-6),
+        "min" => Some(60.0),
+        _ => None,
+    };
+    let value = number.parse::<f64>().ok().filter(|number| number.is_finite());
+    let known = value.zip(factor).map(|(number, factor)| number * factor);
+    known.ok_or_else(|| format!("`{text}` is no time; write 0.1s, 20ms or a number of seconds"))
 }
 
 impl Job {
@@ -183,6 +241,23 @@ mod tests {
         );
         let problem = command("kynch run a --only spacing").unwrap_err();
         assert!(problem.to_string().starts_with("--only spacing: "));
+    }
+
+    #[test]
+    fn times_of_a_run_may_carry_units() {
+        for (text, seconds) in [
+            ("0.5", 0.5),
+            ("20ms", 0.02),
+            ("1e-3 s", 1e-3),
+            ("5us", 5e-6),
+            ("1min", 60.0),
+        ] {
+            let found = instant(text).unwrap_or(f64::NAN);
+            assert!((found / seconds - 1.0).abs() < 1e-12, "{text}: {found}");
+        }
+        for text in ["soon", "", "3 m", "ms", "nan", "1..2"] {
+            assert!(instant(text).is_err(), "{text}");
+        }
     }
 
     #[test]

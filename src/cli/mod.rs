@@ -4,6 +4,7 @@ pub mod actions;
 pub mod arguments;
 pub mod command;
 pub mod console;
+pub mod extract;
 pub mod status;
 
 mod estimate;

@@ -2,6 +2,7 @@
 
 use std::process::ExitCode;
 
+use crate::export::ExportError;
 use crate::report::ReportError;
 use crate::runner::RunError;
 use crate::store::StoreError;
@@ -52,6 +53,11 @@ pub enum Problem {
     Store(#[from] StoreError),
     #[error(transparent)]
     Report(#[from] ReportError),
+    #[error(transparent)]
+    Export(#[from] ExportError),
+    /// The point asked for has no completed run.
+    #[error("{0}")]
+    Missing(String),
     #[error("interrupted; what is finished is kept, the same command goes on from there")]
     Interrupted,
     #[error("cannot write the output: {0}")]
@@ -61,9 +67,13 @@ pub enum Problem {
 impl Problem {
     pub fn status(&self) -> Status {
         match self {
-            Problem::Input(_) | Problem::Study(_) => Status::BadInput,
-            Problem::Interrupted => Status::Incomplete,
-            Problem::Store(_) | Problem::Report(_) | Problem::Output(_) => Status::Damaged,
+            Problem::Input(_) | Problem::Study(_) | Problem::Export(ExportError::Nothing(_)) => {
+                Status::BadInput
+            }
+            Problem::Interrupted | Problem::Missing(_) => Status::Incomplete,
+            Problem::Store(_) | Problem::Report(_) | Problem::Export(_) | Problem::Output(_) => {
+                Status::Damaged
+            }
         }
     }
 }

@@ -391,7 +391,10 @@ fn a_value_is_judged_by_its_mean_and_the_interval_around_it() {
     assert_eq!(open.verdict, Outcome::NotDecidable);
     assert!(reason(&open).contains("2.02 ± 0.0248"), "{}", reason(&open));
     assert_eq!(
-        (exit_code(&[open.clone()], false), exit_code(&[open], true)),
+        (
+            exit_code(std::slice::from_ref(&open), false),
+            exit_code(&[open], true)
+        ),
         (0, 1)
     );
 }

@@ -210,7 +210,7 @@ fn drawn(marks: &[Mark], height: i32) -> Result<String, Box<dyn std::error::Erro
 fn written(discs: &[Disc]) -> String {
     let mut body = format!(
         "<g stroke=\"{}\" stroke-width=\"{}\">\n",
-        theme::hex(theme::INK),
+        theme::hex(theme::SOFT),
         theme::OUTLINE_STROKE
     );
     for Disc { at, radius, colour } in discs {

@@ -7,8 +7,6 @@ use crate::store::model::Run;
 use crate::study::model::{Figure, Study};
 
 mod axis;
-#[cfg(test)]
-mod bed_tests;
 mod canvas;
 mod colour_map;
 mod facts;

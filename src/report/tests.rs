@@ -1,5 +1,7 @@
 //! Reports of hand-built runs: what is on the page, and whether every figure can be read.
 
+mod beds;
+
 use std::path::Path;
 
 use super::canvas::Area;
@@ -545,7 +547,7 @@ fn a_single_run_makes_every_figure() {
     }
 }
 
-pub(super) fn assert_texts_inside(plate: &Plate) {
+fn assert_texts_inside(plate: &Plate) {
     let paper = Area {
         left: 0,
         top: 0,
@@ -568,7 +570,7 @@ fn no_text_is_cut_or_covers_another() {
     }
 }
 
-pub(super) fn assert_readable(plate: &Plate) {
+fn assert_readable(plate: &Plate) {
     assert_texts_inside(plate);
     for (index, (text, area)) in plate.drawing.texts.iter().enumerate() {
         for (other, covered) in &plate.drawing.texts[..index] {
@@ -593,12 +595,12 @@ fn every_figure_becomes_a_picture() {
 }
 
 /// Where pictures are kept for looking at them.
-pub(super) fn pictures() -> Option<std::path::PathBuf> {
+fn pictures() -> Option<std::path::PathBuf> {
     std::env::var_os("KYNCH_PICTURES").map(std::path::PathBuf::from)
 }
 
 /// Draws a figure on white; where pictures are kept, on a dark page, too.
-pub(super) fn assert_pictured(plate: &Plate) {
+fn assert_pictured(plate: &Plate) {
     let light = pixels(&plate.svg, tiny_skia::Color::WHITE);
     let (width, height) = (light.width(), light.height());
     let white = |x: u32, y: u32| {

@@ -26,8 +26,8 @@ pub const AXIS_STROKE: u32 = 18;
 pub const GRID_STROKE: u32 = 10;
 pub const LINE_STROKE: u32 = 36;
 pub const THIN_STROKE: u32 = 22;
-/// Around grains.
-pub const OUTLINE_STROKE: u32 = 6;
+/// Around grains, in the colour of soft lines: it parts dark discs and bright ones alike.
+pub const OUTLINE_STROKE: u32 = 8;
 pub const TICK: i32 = 90;
 pub const MINOR_TICK: i32 = 50;
 /// Bands of scatter: two that cross stay visible.

@@ -7,16 +7,25 @@ use std::path::{Path, PathBuf};
 /// A room and the rooms of its crate that it may import, itself aside.
 type Allowed = (&'static str, &'static [&'static str]);
 
-const HARNESS: [Allowed; 7] = [
+const HARNESS: [Allowed; 8] = [
     ("study", &[]),
     ("store", &["study"]),
     ("reference", &[]),
     ("runner", &["study", "store"]),
     ("judge", &["study", "store", "reference"]),
+    ("export", &["study", "store"]),
     ("report", &["study", "store", "reference", "judge"]),
     (
         "cli",
-        &["study", "store", "reference", "runner", "judge", "report"],
+        &[
+            "study",
+            "store",
+            "reference",
+            "runner",
+            "judge",
+            "report",
+            "export",
+        ],
     ),
 ];
 

@@ -619,3 +619,94 @@ observe: [limit]
         said.out
     );
 }
+
+/// Grains of a rehearsal, three scales.
+const BEDS: &str = "
+question: What do the grains look like?
+scene:
+  rehearsal: {limit: 0.02, time_constant: 10 ms, duration: 1 s, samples: 20, grains: 64}
+vary:
+  scale: {path: scene.rehearsal.scale, values: [1, 2]}
+expect:
+  - compare: {of: scale, between: [{scale: 2}, {scale: 1}], is: greater, by: 50 %, id: greater}
+figures:
+  - snapshots: {times: [0 s, 0.4 s, 1 s], where: {scale: 1}, id: grains}
+  - response: {of: limit, over: scale, against: [{reference: {name: known_limit}}], id: limits}
+";
+
+#[test]
+fn grains_are_pictured_and_written_for_other_programs() {
+    let desk = Desk::new();
+    desk.study("beds", BEDS);
+    let before = desk.kynch("export beds --point 0 --format vtk --out out");
+    assert_eq!(before.code, 3, "{}", before.err);
+    assert!(before.err.contains("kynch run beds"), "{}", before.err);
+    let ran = desk.kynch("study beds");
+    assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
+    assert!(ran.out.contains("greater"), "{}", ran.out);
+    let picture = fs::read_to_string(desk.path("reports/beds/figures/grains.svg")).expect("a picture");
+    assert_eq!(picture.matches("<circle").count(), 3 * 64);
+    assert!(desk.path("reports/beds/figures/limits.svg").is_file());
+
+    let vtk = desk.kynch("export beds --point 0 --format vtk --out out");
+    assert_eq!(vtk.code, 0, "{}", vtk.err);
+    assert!(vtk.out.contains("12 files written"), "{}", vtk.out);
+    assert!(desk.path("out/grains.pvd").is_file() && desk.path("out/grains_0010.vtp").is_file());
+    let one = desk.kynch("export beds --only scale=2 --time 300ms --format vtk --out one");
+    assert_eq!(one.code, 0, "{}", one.err);
+    assert_eq!(fs::read_dir(desk.path("one")).expect("a folder").count(), 2);
+    let csv = desk.kynch("export beds --point 1 --format csv --out csv");
+    assert_eq!(csv.code, 0, "{}", csv.err);
+    let series = fs::read_to_string(desk.path("csv/time_series.csv")).expect("a table");
+    assert!(series.starts_with("time [s],value [m/s]\n"), "{series}");
+}
+
+#[test]
+fn an_export_that_cannot_be_made_says_what_to_do() {
+    let desk = Desk::with_study();
+    desk.study("beds", BEDS);
+    desk.kynch("run beds");
+    desk.kynch("run limits");
+    fs::write(desk.path("file"), "").expect("a file");
+    for (typed, code, said) in [
+        ("export beds --format vtk --out out", 2, "--point 1"),
+        ("export beds --point 9 --format vtk --out out", 2, "0 to 1"),
+        (
+            "export beds --only scale=3 --format vtk --out out",
+            2,
+            "scale: 1, 2",
+        ),
+        (
+            "export beds --point 0 --time soon --format vtk --out out",
+            2,
+            "--time: `soon`",
+        ),
+        (
+            "export beds --point 0 --format csv --table porosity --out out",
+            2,
+            "time_series, snapshots",
+        ),
+        (
+            "export limits --point 0 --format vtk --out out",
+            2,
+            "keeps no snapshots",
+        ),
+        ("export nothing --point 0 --format vtk --out out", 2, "nothing"),
+        ("export beds --point 0 --format stl --out out", 2, "vtk"),
+        (
+            "export beds --point 0 --only scale=1 --format vtk --out out",
+            2,
+            "cannot be used with",
+        ),
+        ("export beds --point 0 --format vtk --out file", 5, "--out"),
+        (
+            "export beds --point 0 --format vtk --out out --store elsewhere",
+            3,
+            "elsewhere",
+        ),
+    ] {
+        let said_instead = desk.kynch(typed);
+        assert_eq!(said_instead.code, code, "{typed}: {}", said_instead.err);
+        assert!(said_instead.err.contains(said), "{typed}: {}", said_instead.err);
+    }
+}

@@ -8,6 +8,7 @@ mod contacts;
 mod grains;
 mod motion;
 mod pairs;
+mod scheme;
 mod slices;
 mod touching;
 mod walls;
@@ -16,6 +17,7 @@ pub use attraction::{Attraction, Charge};
 pub use contacts::{Interaction, Laws};
 pub use grains::{Grain, Grains};
 pub use motion::Surroundings;
+pub use scheme::Scheme;
 pub use slices::Porosity;
 pub use touching::Touching;
 pub use walls::Wall;
@@ -145,7 +147,7 @@ impl Bed {
 
     /// Kicks and drifts; returns the greatest speed [m/s].
     fn move_on(&mut self, kick: f64, drift: f64) -> Result<f64, Astray> {
-        let limit = 0.5 * self.smallest / self.interaction.time_step;
+        let limit = self.speed_limit();
         let fastest = in_widest(KickAndDrift {
             surroundings: &self.surroundings,
             grains: &mut self.grains,
@@ -159,6 +161,11 @@ impl Bed {
         } else {
             Err(self.astray(limit))
         }
+    }
+
+    /// Speed that no grain may reach: half the smallest diameter in a step [m/s].
+    fn speed_limit(&self) -> f64 {
+        0.5 * self.smallest / self.interaction.time_step
     }
 
     fn astray(&self, limit: f64) -> Astray {

@@ -12,4 +12,4 @@ pub use rows::{Image, LANES, Rows, images};
 pub use wide::Record;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use wide::{Avx2, Avx512};
-pub(crate) use wide::{Plain, Wide, WideWork, in_widest};
+pub(crate) use wide::{Plain, Wide, WideWork, in_widest, prefetch};

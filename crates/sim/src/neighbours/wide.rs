@@ -505,6 +505,19 @@ mod x86 {
     }
 }
 
+/// Asks for a record that will be needed soon; the machine may ignore it.
+#[inline(always)]
+pub fn prefetch(records: &[Record], member: u32) {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(record) = records.get(member as usize) {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // SAFETY: a prefetch of any address is harmless, and the instruction is in the baseline.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(record).cast()) };
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = (records, member);
+}
+
 /// Work written once and compiled for each kind of register.
 pub trait WideWork {
     type Output;

@@ -170,13 +170,20 @@ impl Layout {
         let most = if fastest > 0.0 { fastest * unit.factor } else { 1.0 };
         let scale = Scale::tight([0.0, most]).with_at_most(5);
         let mut widest = 0;
-        for tick in scale.ticks() {
+        // Where everything rests there is one speed to tell.
+        for tick in scale
+            .ticks()
+            .iter()
+            .filter(|tick| fastest > 0.0 || tick.at == 0.0)
+        {
             let y = height(scale.fraction(tick.at));
             let stroke = Stroke::solid(theme::INK, theme::AXIS_STROKE);
             canvas.line((area.right, y), (area.right + theme::TICK, y), stroke);
-            let Some(label) = tick.label.as_deref().filter(|_| fastest > 0.0 || tick.at == 0.0) else {
-                continue;
-            };
+            let label = tick
+                .label
+                .as_deref()
+                .map(|label| if fastest > 0.0 { label } else { "0" });
+            let Some(label) = label else { continue };
             let at = (area.right + theme::TICK + theme::GAP, y);
             widest = widest.max(theme::text_width(label, theme::SMALL_TEXT));
             canvas.text(Text::new(label, at, theme::SMALL_TEXT, Anchor::Start));

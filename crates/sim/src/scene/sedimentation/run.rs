@@ -6,9 +6,11 @@ use super::model::{Dimensions, Floor, Sedimentation, Sides, Until};
 use super::observe::{Measures, Settled, profile};
 use super::start::start;
 use super::step::limits;
-use crate::bed::{Astray, Bed};
+use crate::bed::{Astray, Bed, Scheme};
+use crate::integrator::{Gear, RungeKutta4};
 use crate::math::Vec3;
 use crate::outcome::{Column, Control, Counters, Failure, FailureKind, Outcome, Scalar, Table};
+use crate::scene::IntegratorChoice;
 
 /// Rows of the time series in a second of simulated time, at least and at most in a run.
 const ROWS: [f64; 2] = [100.0, 1000.0];
@@ -39,13 +41,14 @@ pub fn run(scene: &Sedimentation, control: &Control) -> Result<Outcome, Box<Fail
     let steps = (scene.duration / dt).ceil().max(1.0) as u64;
     let mut watch = Watch::new(scene, bed, limits.contact_time, dt);
     watch.look(0);
+    let mut motion = Mover::start(scene.integrator, &mut watch.bed);
     let mut done = 0;
     for row in 1..=rows as u64 {
         let target = (row as f64 / rows * steps as f64).round() as u64;
         while done < target {
             // Often enough to be stopped within a moment, in any bed.
             let batch = (target - done).min(watch.patience());
-            if let Err(astray) = watch.bed.advance(batch) {
+            if let Err(astray) = motion.advance(&mut watch.bed, batch) {
                 let reason = leapt(&astray, (done + batch) as f64 * dt);
                 return Err(failed(FailureKind::Diverged, reason, watch.outcome()));
             }
@@ -68,6 +71,34 @@ pub fn run(scene: &Sedimentation, control: &Control) -> Result<Outcome, Box<Fail
         }
     }
     Ok(watch.outcome())
+}
+
+/// The bed's own steps, or those of a general scheme.
+enum Mover {
+    VelocityVerlet,
+    Gear5(Box<Scheme<Gear<5>>>),
+    Gear6(Box<Scheme<Gear<6>>>),
+    RungeKutta4(Box<Scheme<RungeKutta4>>),
+}
+
+impl Mover {
+    fn start(integrator: IntegratorChoice, bed: &mut Bed) -> Mover {
+        match integrator {
+            IntegratorChoice::VelocityVerlet => Mover::VelocityVerlet,
+            IntegratorChoice::Gear5 => Mover::Gear5(Box::new(Scheme::start(bed))),
+            IntegratorChoice::Gear6 => Mover::Gear6(Box::new(Scheme::start(bed))),
+            IntegratorChoice::RungeKutta4 => Mover::RungeKutta4(Box::new(Scheme::start(bed))),
+        }
+    }
+
+    fn advance(&mut self, bed: &mut Bed, steps: u64) -> Result<(), Astray> {
+        match self {
+            Mover::VelocityVerlet => bed.advance(steps),
+            Mover::Gear5(scheme) => scheme.advance(bed, steps),
+            Mover::Gear6(scheme) => scheme.advance(bed, steps),
+            Mover::RungeKutta4(scheme) => scheme.advance(bed, steps),
+        }
+    }
 }
 
 fn failed(kind: FailureKind, reason: String, partial: Outcome) -> Box<Failure> {

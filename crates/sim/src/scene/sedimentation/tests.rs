@@ -369,12 +369,6 @@ fn names_are_distinct_and_fit_the_dimensions() {
 }
 
 #[test]
-fn a_run_that_cannot_be_made_says_so() {
-    let failure = run(&Scene::Sedimentation(box_of_grains()), &Control::SILENT).expect_err("a failure");
-    assert!(failure.reason.contains("cannot be run yet"), "{}", failure.reason);
-}
-
-#[test]
 fn cohesive_grains_of_any_number_settle_between_periodic_sides() {
     // Lanes are left over in the blocks of eight grains and of eight pairs.
     for number in [11, 12] {

@@ -1,8 +1,8 @@
 //! Figures of beds of grains: pictures, responses over seeds, published data beside.
 
-use super::figure::{self, Plate};
-use super::numbers::Numbers;
-use super::tests::{assert_pictured, assert_readable, pictures};
+use super::{assert_pictured, assert_readable, pictures};
+use crate::report::figure::{self, Plate};
+use crate::report::numbers::Numbers;
 use crate::store::model::{Column, PointId, Run, Scalar, Status, Table, Timing};
 use crate::study::model::*;
 
@@ -377,7 +377,7 @@ fn a_response_is_the_mean_over_seeds_with_its_scatter() {
     );
     let single: Vec<Run> = runs.into_iter().filter(|run| run.seed == 1).collect();
     let figure = drawn("r", response(None, Vec::new()), at("viscosity", 1e-3));
-    let plate = super::bed_tests::plate(&single, &figure);
+    let plate = super::beds::plate(&single, &figure);
     assert!(plate.notes.iter().all(|note| !note.contains("seeds")));
 }
 
