@@ -54,6 +54,28 @@ fn main() {
         &hash_of(&[(String::new(), fs::read(lock).unwrap_or_default())]),
     );
     set("SIMULATOR_HASH", &simulator_hash(&simulator));
+    embed(&root.join("references"));
+}
+
+/// Writes the list of published tables that the program carries: name and content of each.
+fn embed(folder: &Path) {
+    watch(folder);
+    let mut files: Vec<PathBuf> = fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "csv"))
+        .collect();
+    files.sort();
+    let mut list = String::from("&[\n");
+    for file in files {
+        let name = file.file_name().unwrap_or_default().to_string_lossy();
+        list += &format!("({name:?}, include_str!({:?})),\n", file.display().to_string());
+    }
+    list += "]\n";
+    let folder = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
+    fs::write(folder.join("tables.rs"), list).expect("the build folder is writable");
 }
 
 fn set(name: &str, value: &str) {

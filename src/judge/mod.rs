@@ -3,6 +3,7 @@
 mod check;
 pub mod convergence;
 pub mod exit;
+mod interpolation;
 pub mod model;
 pub mod pareto;
 mod phrase;
@@ -33,7 +34,12 @@ fn verdict(study: &Study, runs: &[Run], expectation: &Expectation) -> Verdict {
     let finding = match &expectation.check {
         _ if groups.is_empty() => Finding::default(),
         Check::Value { of, band } => check::value::check(&groups, of, band),
-        Check::Error { of, against, below } => check::error::check(&groups, of, against, *below),
+        Check::Error {
+            of,
+            against,
+            below,
+            norm,
+        } => check::error::check(&groups, of, against, *below, *norm),
         Check::Order {
             of,
             against,

@@ -1,7 +1,7 @@
 //! An expectation in words.
 
 use super::words::{band, percent, relation, selection, significant};
-use crate::study::model::{Band, Check, Comparison, Relation};
+use crate::study::model::{Band, Check, Comparison, Norm, Relation};
 
 pub struct Phrase {
     pub statement: String,
@@ -13,14 +13,12 @@ impl Phrase {
     pub fn of(check: &Check) -> Phrase {
         match check {
             Check::Value { of, band } => value(of, band),
-            Check::Error { of, against, below } => Phrase {
-                statement: format!(
-                    "relative error of `{of}` against the reference `{against}` < {}",
-                    percent(*below)
-                ),
-                quantity: of.clone(),
-                band: format!("< {}", significant(*below, 6)),
-            },
+            Check::Error {
+                of,
+                against,
+                below,
+                norm,
+            } => error((of, against), *below, *norm),
             Check::Order {
                 of,
                 against,
@@ -49,6 +47,21 @@ fn value(of: &str, bounds: &Band) -> Phrase {
         statement: format!("`{of}`{link}{words}"),
         quantity: of.to_string(),
         band: words,
+    }
+}
+
+fn error((of, against): (&str, &str), below: f64, norm: Norm) -> Phrase {
+    let error = match norm {
+        Norm::Maximum => "relative error",
+        Norm::RootMeanSquare => "relative root mean square error",
+    };
+    Phrase {
+        statement: format!(
+            "{error} of `{of}` against the reference `{against}` < {}",
+            percent(below)
+        ),
+        quantity: of.to_string(),
+        band: format!("< {}", significant(below, 6)),
     }
 }
 

@@ -1,9 +1,11 @@
 //! The error of one point: the number that verdicts and figures share.
 
+use super::interpolation;
 use super::select::Replicates;
 use super::statistics::Sample;
-use crate::reference::{self, Facts};
+use crate::reference::{self, Expected, Facts, Points};
 use crate::store::model::{Run, Table};
+use crate::study::{self, model::Norm};
 
 /// Why a number cannot be had; what to do.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -42,12 +44,13 @@ pub struct Mean {
 
 /// Relative error of a scalar or a series of one run against a reference.
 ///
-/// Scalar: |x/x_ref − 1|. Series: max|x − x_ref| over max|x_ref|, the reference taken at the run's own times.
+/// Scalar: |x/x_ref − 1|. Series: a norm of x − x_ref over max|x_ref|, both at the run's own times, or at
+/// those of a measured curve as far as the run lasts, the run interpolated.
 ///
 /// # Errors
-/// An observable the run does not have, a reference that does not hold for its scene or is zero,
-/// or a result that is not finite.
-pub fn point_error(run: &Run, of: &str, against: &str) -> Result<PointError, Undecided> {
+/// An observable the run does not have, a reference that does not hold for its scene, is zero or has
+/// another dimension, or a result that is not finite.
+pub fn point_error(run: &Run, of: &str, against: &str, norm: Norm) -> Result<PointError, Undecided> {
     let scalar = |name: &str| run.scalar(name).map(|scalar| scalar.value);
     let facts = Facts {
         settings: &run.settings,
@@ -56,12 +59,25 @@ pub fn point_error(run: &Run, of: &str, against: &str) -> Result<PointError, Und
     let refused = |error: reference::ReferenceError| Undecided(error.to_string());
     let error = if let Some(found) = run.scalar(of) {
         let expected = reference::scalar(against, &facts).map_err(refused)?;
+        same_dimension((of, &found.unit), (against, expected.unit))?;
         let values = (vec![found.value], expected.values);
         largest(values, &found.unit, expected.source)
     } else {
         let (times, values, unit) = series(run, of)?;
-        let expected = reference::series(against, &facts, times).map_err(refused)?;
-        let mut error = largest((values.to_vec(), expected.values), unit, expected.source)?;
+        let measured = reference::points(against, &facts).map_err(refused)?;
+        let (values, expected) = match measured {
+            Some(points) => beside((times, values), against, points)?,
+            None => {
+                let expected = reference::series(against, &facts, times).map_err(refused)?;
+                (values.to_vec(), expected)
+            }
+        };
+        same_dimension((of, unit), (against, expected.unit))?;
+        let root_mean_square = root_mean_square(&values, &expected.values);
+        let mut error = largest((values, expected.values), unit, expected.source)?;
+        if norm == Norm::RootMeanSquare {
+            error.error = root_mean_square;
+        }
         error.signed = error.error;
         Ok(error)
     }?;
@@ -73,15 +89,59 @@ pub fn point_error(run: &Run, of: &str, against: &str) -> Result<PointError, Und
     Ok(error)
 }
 
+/// Refuses to compare a speed with a time.
+fn same_dimension((of, unit): (&str, &str), (against, other): (&str, &str)) -> Result<(), Undecided> {
+    study::comparable(unit, other)
+        .map_err(|(one, other)| Undecided(format!("`{of}` is {one}, the reference `{against}` is {other}")))
+}
+
+/// The series at the times of a measured curve, as far as the series lasts.
+fn beside(
+    (times, values): (&[f64], &[f64]),
+    against: &str,
+    points: Points,
+) -> Result<(Vec<f64>, Expected), Undecided> {
+    let found = points.times.iter().zip(&points.values);
+    let (found, expected): (Vec<f64>, Vec<f64>) = found
+        .filter_map(|(time, value)| Some((interpolation::at(times, values, *time)?, *value)))
+        .unzip();
+    if found.is_empty() {
+        let (first, last) = (times.first().unwrap_or(&0.0), times.last().unwrap_or(&0.0));
+        return Err(Undecided(format!(
+            "no point of the reference `{against}` lies within the run, {first} to {last} s"
+        )));
+    }
+    let expected = Expected {
+        values: expected,
+        unit: points.unit,
+        source: points.source,
+    };
+    Ok((found, expected))
+}
+
+/// Over the largest reference value.
+fn root_mean_square(found: &[f64], expected: &[f64]) -> f64 {
+    let scale = expected
+        .iter()
+        .fold(0.0, |scale: f64, value| scale.max(value.abs()));
+    let squares: f64 = found.iter().zip(expected).map(|(x, y)| (x - y).powi(2)).sum();
+    (squares / found.len() as f64).sqrt() / scale
+}
+
 /// The same over seeds: the error of the mean for a scalar, the mean error for a series.
 ///
 /// # Errors
 /// As [`point_error`], for any of the runs.
-pub fn mean_error(replicates: &Replicates, of: &str, against: &str) -> Result<PointError, Undecided> {
+pub fn mean_error(
+    replicates: &Replicates,
+    of: &str,
+    against: &str,
+    norm: Norm,
+) -> Result<PointError, Undecided> {
     let errors: Vec<PointError> = replicates
         .runs
         .iter()
-        .map(|run| point_error(run, of, against))
+        .map(|run| point_error(run, of, against, norm))
         .collect::<Result<_, _>>()?;
     let sample = |number: fn(&PointError) -> f64| Sample::of(errors.iter().map(number));
     let signed = sample(|error| error.signed);

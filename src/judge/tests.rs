@@ -1,9 +1,11 @@
+mod published;
+
 use super::exit::exit_code;
 use super::point_error::point_error;
 use super::*;
 use crate::store::model::{Column, PointId, Scalar, Status, Table, Timing};
 use crate::study::model::{
-    Axis, AxisValue, Band, Comparison, Plan, Point, Rehearsal, RehearsalEnding, Relation, Work,
+    Axis, AxisValue, Band, Comparison, Norm, Plan, Point, Rehearsal, RehearsalEnding, Relation, Work,
 };
 use proptest::prelude::*;
 use serde_json::json;
@@ -25,7 +27,7 @@ fn rehearse(scene: &str, scale: f64, error: f64) -> Run {
     };
     let scalar = |name: &str, value: f64| Scalar {
         name: name.to_string(),
-        unit: "1".to_string(),
+        unit: "m/s".to_string(),
         value,
     };
     Run {
@@ -41,10 +43,13 @@ fn rehearse(scene: &str, scale: f64, error: f64) -> Run {
         counters: vec![("steps".to_string(), 50)],
         tables: vec![Table {
             name: "time_series".to_string(),
-            columns: vec![column("value", "1", series.collect()), column("time", "s", times)]
-                .into_iter()
-                .rev()
-                .collect(),
+            columns: vec![
+                column("value", "m/s", series.collect()),
+                column("time", "s", times),
+            ]
+            .into_iter()
+            .rev()
+            .collect(),
         }],
         timing: Timing::default(),
     }
@@ -114,6 +119,7 @@ fn error_below(of: &str, against: &str, below: f64) -> Check {
         of: of.to_string(),
         against: against.to_string(),
         below,
+        norm: Norm::Maximum,
     }
 }
 
@@ -159,7 +165,7 @@ fn the_worst_point_decides_an_error() {
         holding.statement,
         "relative error of `limit` against the reference `known_limit` < 1.7 %"
     );
-    assert_eq!((holding.band.as_str(), holding.unit.as_str()), ("< 0.017", "1"));
+    assert_eq!((holding.band.as_str(), holding.unit.as_str()), ("< 0.017", "m/s"));
     let failing = one(limit_below(0.01), &runs);
     assert_eq!(failing.verdict, Outcome::Fails);
     assert!(reason(&failing).contains("scene=a scale=4"), "{failing:?}");
@@ -171,7 +177,7 @@ fn the_worst_point_decides_an_error() {
 #[test]
 fn a_series_is_judged_by_its_largest_deviation() {
     let run = rehearse("a", 1.0, 0.01);
-    let error = point_error(&run, "value", "known_series").unwrap();
+    let error = point_error(&run, "value", "known_series", Norm::Maximum).unwrap();
     assert!((error.error - 0.01).abs() < 1e-12, "{error:?}");
     let series = error_below("value", "known_series", 0.02);
     assert_eq!(one(series, &[run]).verdict, Outcome::Holds);

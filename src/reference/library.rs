@@ -2,16 +2,36 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 use serde::Deserialize;
 
 use super::ReferenceError;
+use super::data::DataReference;
 
 /// An opened `references/` folder.
 pub struct Library {
-    root: PathBuf,
+    tables: Tables,
     index: Index,
 }
+
+/// Where the text of the tables comes from.
+enum Tables {
+    Folder(PathBuf),
+    /// Name and content.
+    Carried(&'static [(&'static str, &'static str)]),
+}
+
+/// The index and the tables of the repository, as they were when the program was built.
+const INDEX: &str = include_str!("../../references/references.yaml");
+const TABLES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/tables.rs"));
+
+static CARRIED: LazyLock<Result<Library, ReferenceError>> = LazyLock::new(|| {
+    Ok(Library {
+        tables: Tables::Carried(TABLES),
+        index: index("references.yaml", INDEX)?,
+    })
+});
 
 #[derive(Deserialize)]
 struct Index {
@@ -28,6 +48,9 @@ pub struct DataSetEntry {
     pub citation_keys: Vec<String>,
     pub provenance: String,
     pub confidence: String,
+    /// References by the name that a study calls them: columns of this file.
+    #[serde(default)]
+    pub references: BTreeMap<String, DataReference>,
 }
 
 /// A table of text, numbers on demand. Rows count from zero.
@@ -46,13 +69,18 @@ impl Library {
     /// A missing or malformed index.
     pub fn open(root: &Path) -> Result<Library, ReferenceError> {
         let path = root.join("references.yaml");
-        let text = read(&path)?;
-        let index = serde_saphyr::from_str(&text)
-            .map_err(|error| ReferenceError(format!("{}: {error}", path.display())))?;
         Ok(Library {
-            root: root.to_path_buf(),
-            index,
+            index: index(&path.display().to_string(), &read(&path)?)?,
+            tables: Tables::Folder(root.to_path_buf()),
         })
+    }
+
+    /// The folder that the program was built with.
+    ///
+    /// # Errors
+    /// A malformed index.
+    pub fn carried() -> Result<&'static Library, ReferenceError> {
+        CARRIED.as_ref().map_err(Clone::clone)
     }
 
     /// Opens the folder `references` that lies nearest above a path: that of the studies which use it.
@@ -87,7 +115,14 @@ impl Library {
     /// # Errors
     /// A file or a key that is not in the index.
     pub fn source(&self, file: &str) -> Result<String, ReferenceError> {
-        let keys = &self.entry(file)?.citation_keys;
+        self.cited(file, &self.entry(file)?.citation_keys)
+    }
+
+    /// The citations behind some keys, one line; `file` is who cites, for messages.
+    ///
+    /// # Errors
+    /// A key that is not in the index.
+    pub fn cited(&self, file: &str, keys: &[String]) -> Result<String, ReferenceError> {
         let citations: Result<Vec<_>, _> = keys
             .iter()
             .map(|key| {
@@ -106,8 +141,17 @@ impl Library {
     /// # Errors
     /// A file that is not in the index, cannot be read, or is no table.
     pub fn dataset(&self, file: &str) -> Result<DataSet, ReferenceError> {
-        let path = self.root.join(&self.entry(file)?.file);
-        DataSet::parse(file, &read(&path)?)
+        self.entry(file)?;
+        match &self.tables {
+            Tables::Folder(root) => DataSet::parse(file, &read(&root.join(file))?),
+            Tables::Carried(tables) => {
+                let table = tables.iter().find(|(name, _)| *name == file);
+                let (_, text) = table.ok_or_else(|| {
+                    ReferenceError(format!("references.yaml names `{file}`, which is not there"))
+                })?;
+                DataSet::parse(file, text)
+            }
+        }
     }
 
     fn entry(&self, file: &str) -> Result<&DataSetEntry, ReferenceError> {
@@ -232,6 +276,10 @@ impl DataSet {
     }
 }
 
+fn index(name: &str, text: &str) -> Result<Index, ReferenceError> {
+    serde_saphyr::from_str(text).map_err(|error| ReferenceError(format!("{name}: {error}")))
+}
+
 fn read(path: &Path) -> Result<String, ReferenceError> {
     std::fs::read_to_string(path).map_err(|error| ReferenceError(format!("{}: {error}", path.display())))
 }
@@ -331,6 +379,16 @@ pub(super) mod tests {
             assert!(!library.dataset(&file).unwrap().is_empty());
             assert!(!library.source(&file).unwrap().is_empty());
         }
+    }
+
+    #[test]
+    fn the_program_carries_what_the_folder_holds() {
+        let carried = Library::carried().unwrap();
+        for entry in library().datasets() {
+            let table = carried.dataset(&entry.file).unwrap();
+            assert_eq!(table.rows, library().dataset(&entry.file).unwrap().rows);
+        }
+        assert_eq!(carried.datasets().len(), TABLES.len());
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Values to judge against: analytic solutions and published data. Shares nothing with the simulator.
 
 mod collision;
+pub mod data;
 pub mod drag_law;
 pub mod force_balance;
 pub mod grain;
@@ -37,7 +38,17 @@ pub struct Expected {
     pub source: String,
 }
 
-#[derive(Debug, thiserror::Error)]
+/// A measured curve: its own times and values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Points {
+    /// Rising [s].
+    pub times: Vec<f64>,
+    pub values: Vec<f64>,
+    pub unit: &'static str,
+    pub source: String,
+}
+
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{0}")]
 pub struct ReferenceError(pub String);
 
@@ -84,6 +95,9 @@ fn solutions() -> Vec<Solution> {
 /// # Errors
 /// An unknown name, a curve asked for as a value, or settings the solution does not hold for.
 pub fn scalar(name: &str, facts: &Facts) -> Result<Expected, ReferenceError> {
+    if let Some(named) = data::find(name)? {
+        return named.scalar(&Case::of(facts)?);
+    }
     let solution = find(name)?;
     let Kind::Scalar(solve) = solution.kind else {
         return Err(ReferenceError(format!(
@@ -95,11 +109,18 @@ pub fn scalar(name: &str, facts: &Facts) -> Result<Expected, ReferenceError> {
 }
 
 /// A reference curve by name, at the given abscissae (times [s], mostly). A scalar reference is the
-/// same at every abscissa.
+/// same at every abscissa. A measured curve is known at its own times only: see [`points`].
 ///
 /// # Errors
-/// An unknown name, or settings the solution does not hold for.
+/// An unknown name, a measured curve, or settings the solution does not hold for.
 pub fn series(name: &str, facts: &Facts, at: &[f64]) -> Result<Expected, ReferenceError> {
+    if data::find(name)?.is_some() {
+        let level = scalar(name, facts)?;
+        return Ok(Expected {
+            values: vec![level.values[0]; at.len()],
+            ..level
+        });
+    }
     let solution = find(name)?;
     let case = Case::of(facts)?;
     let values = match solution.kind {
@@ -109,9 +130,21 @@ pub fn series(name: &str, facts: &Facts, at: &[f64]) -> Result<Expected, Referen
     Ok(expected(values, &solution))
 }
 
-/// Every reference there is.
+/// The measured curve of that name; nothing where the name is a solution or a single value.
+///
+/// # Errors
+/// A data set at fault, or one without a curve for these settings.
+pub fn points(name: &str, facts: &Facts) -> Result<Option<Points>, ReferenceError> {
+    match data::find(name)? {
+        Some(named) if named.is_curve() => named.points(&Case::of(facts)?).map(Some),
+        _ => Ok(None),
+    }
+}
+
+/// Every reference there is, solutions first.
 pub fn list() -> Vec<Entry> {
-    solutions().into_iter().map(|solution| solution.entry).collect()
+    let solutions = solutions().into_iter().map(|solution| solution.entry);
+    solutions.chain(data::list()).collect()
 }
 
 fn find(name: &str) -> Result<Solution, ReferenceError> {
@@ -213,7 +246,7 @@ mod tests {
     #[test]
     fn every_reference_is_found_under_its_own_name() {
         for entry in list() {
-            assert!(find(entry.name).is_ok());
+            assert!(find(entry.name).is_ok() != data::find(entry.name).unwrap().is_some());
             assert!(!entry.source.is_empty() && !entry.meaning.is_empty());
         }
     }

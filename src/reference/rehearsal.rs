@@ -17,7 +17,7 @@ pub(super) fn limit() -> Solution {
             meaning: "limit of the rehearsal scene's series",
             source: SOURCE,
         },
-        unit: "1",
+        unit: "m/s",
         kind: Kind::Scalar(|case| {
             case.only("known_limit", "rehearsal")?;
             case.number("limit")
@@ -32,7 +32,7 @@ pub(super) fn series() -> Solution {
             meaning: "the rehearsal scene's series without its error",
             source: SOURCE,
         },
-        unit: "1",
+        unit: "m/s",
         kind: Kind::Series(|case, times| {
             case.only("known_series", "rehearsal")?;
             let limit = case.number("limit")?;

@@ -61,6 +61,17 @@ impl<'a> Case<'a> {
         DragLaw::named(word).ok_or_else(|| ReferenceError(format!("no drag law is called `{word}`")))
     }
 
+    /// A number at a dotted path, whatever choice stands on the way: `fluid.density` is found in
+    /// `fluid: {still: {density: …}}`.
+    pub fn chosen_number(&self, path: &str) -> Option<f64> {
+        path.split('.')
+            .try_fold(self.body, |value, key| {
+                let chosen = || single(value).and_then(|(_, body)| body.get(key));
+                value.get(key).or_else(chosen)
+            })?
+            .as_f64()
+    }
+
     fn at(&self, path: &str) -> Option<&'a Value> {
         path.split('.').try_fold(self.body, |value, key| value.get(key))
     }

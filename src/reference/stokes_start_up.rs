@@ -1,10 +1,11 @@
 //! A sphere released from rest under Stokes drag.
 //!
 //! ```text
-//! v(t) = (ρ_p − ρ_f) V g / b · (1 − exp(−t/t_d)),     b = 3πμ d,     t_d = m/b
+//! v(t) = (ρ_p − ρ_f) V g / b · (1 − exp(−t/t_d)),     b = 3πμ d,     t_d = (m + m_a)/b
 //! ```
 //!
-//! Fluid at rest and unbounded, no added mass, no history force. Source: Raso (2014), eq. 4.1.
+//! Fluid at rest and unbounded, no history force. m_a: ½ρ_f V where the scene asks for added mass, else zero.
+//! Source: Raso (2014), eq. 4.1.
 
 use super::drag_law::DragLaw;
 use super::grain::Grain;
@@ -12,6 +13,8 @@ use super::{Entry, Kind, ReferenceError, Solution};
 
 pub struct StokesStartUp {
     pub grain: Grain,
+    /// m_a [kg].
+    pub added_mass: f64,
 }
 
 impl StokesStartUp {
@@ -22,7 +25,7 @@ impl StokesStartUp {
 
     /// t_d [s].
     pub fn relaxation_time(&self) -> f64 {
-        self.grain.mass() / self.grain.stokes_drag(1.0)
+        (self.grain.mass() + self.added_mass) / self.grain.stokes_drag(1.0)
     }
 
     /// Settling velocity at time t ≥ 0 [m/s].
@@ -48,7 +51,12 @@ pub(super) fn solution() -> Solution {
                     "`stokes_start_up` holds for `drag: stokes`, not for `drag: {law}`; compare with `terminal_velocity`"
                 )));
             }
-            let start_up = StokesStartUp { grain: case.grain()? };
+            let grain = case.grain()?;
+            let added_mass = match case.word("added_mass") {
+                Some("on") => 0.5 * grain.fluid_density * grain.volume(),
+                _ => 0.0,
+            };
+            let start_up = StokesStartUp { grain, added_mass };
             Ok(times.iter().map(|&time| start_up.velocity(time)).collect())
         }),
     }
@@ -59,6 +67,11 @@ mod tests {
     use super::*;
     use crate::reference::grain::tests::GLASS;
     use crate::reference::library::tests::{assert_printed, dataset};
+
+    const ALONE: StokesStartUp = StokesStartUp {
+        grain: GLASS,
+        added_mass: 0.0,
+    };
 
     #[test]
     fn relaxation_times_are_the_published_table() {
@@ -71,7 +84,10 @@ mod tests {
                 viscosity: table.number("mu_Pa_s", row),
                 gravity: 9.81,
             };
-            let start_up = StokesStartUp { grain };
+            let start_up = StokesStartUp {
+                grain,
+                added_mass: 0.0,
+            };
             assert_printed(
                 start_up.relaxation_time(),
                 table.text("stokes_relaxation_time_s", row),
@@ -85,7 +101,7 @@ mod tests {
 
     #[test]
     fn obeys_the_equation_of_motion() {
-        let start_up = StokesStartUp { grain: GLASS };
+        let start_up = ALONE;
         let step = 1e-7;
         for time in [1e-4, 1e-3, 5e-3] {
             let acceleration =
@@ -97,9 +113,23 @@ mod tests {
 
     #[test]
     fn starts_with_the_reduced_gravity() {
-        let start_up = StokesStartUp { grain: GLASS };
+        let start_up = ALONE;
         let time = 1e-9;
         let gravity = GLASS.gravity * (1.0 - GLASS.fluid_density / GLASS.density);
         assert!((start_up.velocity(time) / time / gravity - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn added_mass_slows_the_start_and_leaves_the_end() {
+        let carrying = StokesStartUp {
+            grain: GLASS,
+            added_mass: 0.5 * GLASS.fluid_density * GLASS.volume(),
+        };
+        assert_eq!(carrying.terminal_velocity(), ALONE.terminal_velocity());
+        let time = 1e-9;
+        // A sphere in a fluid of its own density times s starts with (1 − s)/(1 + s/2) g.
+        let ratio = GLASS.fluid_density / GLASS.density;
+        let gravity = GLASS.gravity * (1.0 - ratio) / (1.0 + 0.5 * ratio);
+        assert!((carrying.velocity(time) / time / gravity - 1.0).abs() < 1e-6);
     }
 }

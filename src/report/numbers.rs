@@ -5,6 +5,7 @@ use crate::judge;
 use crate::judge::convergence::{Honesty, extrapolate, observed_order};
 use crate::reference::{self, Facts};
 use crate::store::model::Run;
+use crate::study::model::Norm;
 
 /// A quantity of one run beside its reference, in SI units; the error is relative.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,6 +58,14 @@ pub struct Curve {
     pub source: String,
 }
 
+/// A measured curve with its own times, SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    pub times: Vec<f64>,
+    pub values: Vec<f64>,
+    pub source: String,
+}
+
 /// One resolution of a sweep; a mean over replicates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Resolved {
@@ -71,6 +80,7 @@ pub type ErrorOf<'a> = dyn Fn(&Run, &str, &str) -> Result<PointError, String> + 
 pub type ConvergenceOf<'a> = dyn Fn(&[Resolved]) -> Convergence + 'a;
 pub type FrontOf<'a> = dyn Fn(&[(f64, f64)]) -> Vec<usize> + 'a;
 pub type CurveOf<'a> = dyn Fn(&Run, &str, &[f64]) -> Result<Curve, String> + 'a;
+pub type PointsOf<'a> = dyn Fn(&Run, &str) -> Result<Option<Measured>, String> + 'a;
 
 /// The functions a report calls for its numbers.
 #[derive(Clone, Copy)]
@@ -80,6 +90,8 @@ pub struct Numbers<'a> {
     /// Indices of the pairs (cost, error) that no other pair beats in both.
     pub front: &'a FrontOf<'a>,
     pub curve: &'a CurveOf<'a>,
+    /// A reference that has times of its own.
+    pub points: &'a PointsOf<'a>,
 }
 
 impl Numbers<'static> {
@@ -89,6 +101,7 @@ impl Numbers<'static> {
         convergence: &convergence,
         front: &judge::pareto::front,
         curve: &curve,
+        points: &points,
     };
 }
 
@@ -96,7 +109,8 @@ impl Numbers<'static> {
 pub const RECOMMENDED: &[(&str, f64)] = &[("spacing_over_diameter", 2.0)];
 
 fn point_error(run: &Run, of: &str, against: &str) -> Result<PointError, String> {
-    let found = judge::point_error::point_error(run, of, against).map_err(|error| error.to_string())?;
+    let found = judge::point_error::point_error(run, of, against, Norm::Maximum)
+        .map_err(|error| error.to_string())?;
     Ok(PointError {
         computed: Some(found.computed),
         expected: Some(found.expected),
@@ -144,6 +158,20 @@ fn doubt_of_values(honesty: Honesty) -> Option<&'static str> {
         Honesty::NotAsymptotic => Some("the values do not converge at one steady order"),
         Honesty::TooFew => Some("there are fewer than three resolutions"),
     }
+}
+
+fn points(run: &Run, name: &str) -> Result<Option<Measured>, String> {
+    let scalars = |name: &str| run.scalar(name).map(|scalar| scalar.value);
+    let facts = Facts {
+        settings: &run.settings,
+        scalars: &scalars,
+    };
+    let points = reference::points(name, &facts).map_err(|error| error.to_string())?;
+    Ok(points.map(|points| Measured {
+        times: points.times,
+        values: points.values,
+        source: points.source,
+    }))
 }
 
 fn curve(run: &Run, name: &str, times: &[f64]) -> Result<Curve, String> {

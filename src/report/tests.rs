@@ -173,6 +173,7 @@ fn study() -> Study {
                 of: "terminal_velocity".into(),
                 against: "force_balance".into(),
                 below: 0.02,
+                norm: Norm::Maximum,
             },
             selection: Selection::default(),
             claims: vec!["raso-fig5.18-c1".into()],
@@ -237,6 +238,7 @@ const NUMBERS: Numbers = Numbers {
     convergence: &convergence,
     front: &front,
     curve: &curve,
+    points: &|_, _| Ok(None),
 };
 
 fn verdicts() -> Vec<Verdict> {

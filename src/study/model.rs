@@ -207,13 +207,26 @@ pub struct Band {
     pub below: Option<f64>,
 }
 
+/// How the deviations of a series become one number.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Norm {
+    #[default]
+    Maximum,
+    RootMeanSquare,
+}
+
 #[derive(Clone, Debug, PartialEq)]
 pub enum Check {
     /// A scalar lies in a band, in every selected run.
     Value { of: String, band: Band },
     /// Largest relative error of a quantity against a reference is below a bound, in every selected
-    /// run. For a scalar: |x/x_ref − 1|; for a series: max|x − x_ref| over max|x_ref|.
-    Error { of: String, against: String, below: f64 },
+    /// run. For a scalar: |x/x_ref − 1|; for a series: a norm of x − x_ref over max|x_ref|.
+    Error {
+        of: String,
+        against: String,
+        below: f64,
+        norm: Norm,
+    },
     /// Observed order of the error over an axis.
     Order {
         of: String,

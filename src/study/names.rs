@@ -3,6 +3,7 @@
 use kynch_sim::scene::{Observable, ObservableKind};
 
 use super::model::Work;
+use super::published::published;
 
 /// What a scene can be asked for.
 pub fn observables(work: &Work) -> Vec<Observable> {
@@ -30,15 +31,20 @@ fn observable(row: &Row) -> Observable {
 use ObservableKind::{Profile, Scalar, Series};
 
 const REHEARSAL: &[Row] = &[
-    ("limit", "1", Scalar, "limit of the series"),
+    ("limit", "m/s", Scalar, "limit of the series"),
     ("scale", "1", Scalar, "scale that the error depends on"),
-    ("value", "1", Series, "the series"),
+    ("value", "m/s", Series, "the series"),
 ];
 
 const SNAPSHOTS: Row = ("snapshots", "1", Profile, "every grain at some instants");
 
-/// References by name, and whether each is a curve.
-pub const REFERENCES: &[(&str, ObservableKind)] = &[
+/// References by name, and whether each is a curve: solutions, then published data.
+pub fn references() -> Vec<(&'static str, ObservableKind)> {
+    let data = published().iter().map(|entry| (entry.name.as_str(), entry.kind));
+    SOLUTIONS.iter().copied().chain(data).collect()
+}
+
+const SOLUTIONS: &[(&str, ObservableKind)] = &[
     ("stokes_start_up", Series),
     ("terminal_velocity", Scalar),
     ("force_balance", Scalar),

@@ -153,6 +153,14 @@ pub struct Measured {
     pub dimension: Dimension,
 }
 
+/// Dimension of a unit alone; `1` and nothing at all are pure numbers.
+pub fn dimension(unit: &str) -> Option<Dimension> {
+    match unit {
+        "" | "1" => Some(Dimension::NONE),
+        unit => scale(unit).ok().map(|scale| scale.dimension),
+    }
+}
+
 /// Reads `number unit`.
 ///
 /// # Errors

@@ -5,12 +5,13 @@ use crate::judge::model::PointVerdict;
 use crate::judge::point_error::{PointError, mean_error};
 use crate::judge::select::Replicates;
 use crate::judge::words::{percent, significant};
+use crate::study::model::Norm;
 
-pub fn check(groups: &[Replicates], of: &str, against: &str, below: f64) -> Finding {
+pub fn check(groups: &[Replicates], of: &str, against: &str, below: f64, norm: Norm) -> Finding {
     let mut finding = Finding::default();
     let mut widest_spread = 0.0f64;
     for group in groups {
-        let error = match mean_error(group, of, against) {
+        let error = match mean_error(group, of, against, norm) {
             Ok(error) => error,
             Err(undecided) => {
                 finding.points.push(blank(group));

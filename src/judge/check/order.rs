@@ -5,6 +5,7 @@ use crate::judge::convergence::{Honesty, Order, observed_order};
 use crate::judge::point_error::{PointError, mean_error};
 use crate::judge::select::Chain;
 use crate::judge::words::significant;
+use crate::study::model::Norm;
 
 /// What is expected of the order.
 pub struct Expected {
@@ -25,7 +26,7 @@ pub fn check(chains: &[Chain], of: &str, against: &str, over: &str, expected: &E
     for chain in chains {
         let mut errors = Vec::new();
         for (_, group) in &chain.steps {
-            match mean_error(group, of, against) {
+            match mean_error(group, of, against, Norm::Maximum) {
                 Ok(error) => {
                     finding.points.push(erroneous(group, &error));
                     finding.source = error.source.clone();

@@ -184,6 +184,7 @@ fn bounds(material: &Material, of: &str, against: &str) -> Vec<f64> {
             of: checked,
             against: reference,
             below,
+            ..
         } = &expectation.check
         {
             let concerned = material

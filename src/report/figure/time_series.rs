@@ -6,6 +6,7 @@ use super::super::panel::{Axis, Panel};
 use super::lines::{self, Line};
 use super::replicates::deviation_of;
 use super::{Cell, Material, Plate, Table, cited};
+use crate::report::numbers::Measured;
 use crate::report::{ReportError, format, selection};
 use crate::store::model::{Column, Run};
 
@@ -202,6 +203,10 @@ fn references(material: &Material, against: Option<&str>) -> Result<Vec<(Line, S
     };
     let mut found: Vec<(Line, String)> = Vec::new();
     for run in &material.runs {
+        if let Some(points) = (material.numbers.points)(run, name).map_err(ReportError)? {
+            measured(points, &times(run)?, &mut found);
+            continue;
+        }
         let times = times(run)?;
         let curve = (material.numbers.curve)(run, name, &times).map_err(ReportError)?;
         let known = found
@@ -223,6 +228,25 @@ fn references(material: &Material, against: Option<&str>) -> Result<Vec<(Line, S
     Ok(found)
 }
 
+/// Adds a measured curve, as far as the run lasts, unless it is there.
+fn measured(points: Measured, times: &[f64], found: &mut Vec<(Line, String)>) {
+    let last = times.last().copied().unwrap_or(0.0);
+    let within = points.times.iter().zip(&points.values);
+    let (x, y): (Vec<f64>, Vec<f64>) = within.filter(|(time, _)| **time <= last).unzip();
+    if found.iter().any(|(line, _)| line.x == x && line.y == y) {
+        return;
+    }
+    let line = Line {
+        x,
+        y,
+        style: lines::reference_style(),
+        opacity: 1.0,
+        markers: None,
+        band: None,
+    };
+    found.push((line, points.source));
+}
+
 fn times(run: &Run) -> Result<Vec<f64>, ReportError> {
     let column = run.table(TABLE).and_then(|table| table.column(TIME));
     let column = column.ok_or_else(|| ReportError(format!("run {} keeps no time series", run.id.0)))?;
@@ -241,18 +265,25 @@ fn table(
     if means {
         head.extend(of.iter().map(|name| format!("{} [{unit}]", deviation_of(name))));
     }
+    let computed = head.len() - 2;
     head.extend(against.map(|name| format!("{name} [{unit}]")));
     let mut rows = Vec::new();
     for run in &material.runs {
         let times = times(run)?;
         let columns = of.iter().map(|name| Ok(&series(run, name)?.1.values));
         let columns = columns.collect::<Result<Vec<_>, ReportError>>()?;
-        let reference = match against {
-            Some(name) => Some((material.numbers.curve)(run, name, &times).map_err(ReportError)?),
-            None => None,
-        };
         let scatters: Vec<_> = of.iter().map(|name| scatter(run, name)).collect();
         let label = selection::label(material.study, run);
+        let mut reference = None;
+        if let Some(name) = against {
+            match (material.numbers.points)(run, name).map_err(ReportError)? {
+                Some(points) => rows.extend(own_rows(&points, &label, computed)),
+                None => {
+                    let curve = (material.numbers.curve)(run, name, &times).map_err(ReportError)?;
+                    reference = Some(curve);
+                }
+            }
+        }
         for (index, time) in times.iter().enumerate() {
             let mut row = vec![Cell::Words(label.clone()), Cell::Number(*time)];
             row.extend(
@@ -267,13 +298,24 @@ fn table(
                         .map(|band| Cell::from(band.as_ref().and_then(|band| band.half.get(index).copied()))),
                 );
             }
-            row.extend(
-                reference
-                    .iter()
-                    .map(|curve| Cell::from(curve.values.get(index).copied())),
-            );
+            row.extend(against.map(|_| {
+                let values = reference.as_ref().map(|curve| &curve.values);
+                Cell::from(values.and_then(|values| values.get(index).copied()))
+            }));
             rows.push(row);
         }
     }
     Ok(Table { head, rows })
+}
+
+/// Measured points stand at their own times, in rows without a computed value.
+fn own_rows(points: &Measured, label: &str, computed: usize) -> Vec<Vec<Cell>> {
+    let pairs = points.times.iter().zip(&points.values);
+    let row = |(time, value): (&f64, &f64)| {
+        let mut row = vec![Cell::Words(label.to_owned()), Cell::Number(*time)];
+        row.extend(vec![Cell::Empty; computed]);
+        row.push(Cell::Number(*value));
+        row
+    };
+    pairs.map(row).collect()
 }

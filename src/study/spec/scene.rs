@@ -40,6 +40,9 @@ pub struct SingleSphereSpec {
     /// Whether the grain's own disturbance is taken out of the fluid velocity it sees.
     #[serde(default = "SelfDisturbanceSpec::corrected")]
     pub self_disturbance: SelfDisturbanceSpec,
+    /// Whether an accelerating grain carries half its volume of fluid along; for fluids `still` and `column`.
+    #[serde(default)]
+    pub added_mass: Switch,
     /// Simulated time.
     pub duration: Time,
     #[serde(default = "gravity")]
@@ -96,6 +99,14 @@ pub enum DragSpec {
     SchillerNaumann,
     DiFelice,
     CoulsonRichardson,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Switch {
+    On,
+    #[default]
+    Off,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, Serialize, JsonSchema)]

@@ -60,8 +60,18 @@ pub struct ErrorSpec {
     pub against: String,
     /// Bound on the relative error.
     pub below: Fraction,
+    /// How the deviations of a series become one number; the largest, if left out.
+    pub norm: Option<NormSpec>,
     #[serde(flatten)]
     pub common: Common,
+}
+
+/// One number for the deviations of a series, over the largest value of the reference.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum NormSpec {
+    Maximum,
+    RootMeanSquare,
 }
 
 #[derive(Clone, Debug, Deserialize, JsonSchema)]

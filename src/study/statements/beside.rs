@@ -2,7 +2,7 @@
 
 use super::{MOST_PANELS, Reader};
 use crate::study::model::{Beside, DataSeries, Point};
-use crate::study::names::REFERENCES;
+use crate::study::names::references;
 use crate::study::spec::statement::{BesideSpec, DataSpec, ResponseSpec};
 use crate::study::units::{self, Dimension};
 
@@ -15,7 +15,7 @@ impl Reader<'_, '_> {
         for one in &spec.against {
             match one {
                 BesideSpec::Reference(reference) => {
-                    let known = REFERENCES.iter().any(|(name, _)| *name == reference.name);
+                    let known = references().iter().any(|(name, _)| *name == reference.name);
                     self.reference(&reference.name, Some(&spec.of).filter(|_| known));
                     beside.push(Beside::Reference(reference.name.clone()));
                 }

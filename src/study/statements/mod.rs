@@ -247,9 +247,11 @@ impl Reader<'_, '_> {
                 self.observable("of", &spec.of, &[Scalar, Series]);
                 self.reference(&spec.against, Some(&spec.of));
                 self.above_zero("below", spec.below.0);
+                let norm = self.norm(spec.norm, &spec.of);
                 (
                     spec.common,
                     Check::Error {
+                        norm,
                         of: spec.of,
                         against: spec.against,
                         below: spec.below.0,

@@ -4,9 +4,12 @@ use kynch_sim::scene::{Observable, ObservableKind};
 use serde_json::Value as Schema;
 
 use super::{Reader, distinct};
-use crate::study::model::AxisValue;
-use crate::study::names::{REFERENCES, observables};
+use crate::study::comparable;
+use crate::study::model::{AxisValue, Norm};
+use crate::study::names::{observables, references};
 use crate::study::nearest::advice;
+use crate::study::published::published;
+use crate::study::spec::statement::NormSpec;
 use crate::study::units::{self, Dimension};
 use crate::study::yaml::Node;
 
@@ -92,9 +95,12 @@ impl Reader<'_, '_> {
     pub(super) fn level(&mut self, name: &str, of: Option<&String>) {
         let is_value =
             |(known, kind): &(&str, ObservableKind)| *known == name && *kind == ObservableKind::Scalar;
-        if !REFERENCES.iter().any(is_value) {
+        let all = references();
+        if all.iter().any(is_value) {
+            self.same_dimension(name, of);
+        } else {
             // An unknown name may have meant either kind.
-            let known = REFERENCES.iter().any(|(known, _)| *known == name);
+            let known = all.iter().any(|(known, _)| *known == name);
             self.reference(name, of.filter(|_| known));
         }
     }
@@ -103,17 +109,24 @@ impl Reader<'_, '_> {
     pub(super) fn reference(&mut self, name: &str, of: Option<&String>) {
         let works = self.context.works.values();
         let offered: Vec<Observable> = works.flat_map(observables).collect();
-        let kinds: Vec<ObservableKind> = offered
+        let found = || {
+            offered
+                .iter()
+                .filter(|found| of.is_some_and(|of| found.name == of))
+        };
+        let kinds: Vec<ObservableKind> = found().map(|found| found.kind).collect();
+        let other_dimension = |name: &str| {
+            let data = published().iter().find(|entry| entry.name == name);
+            data.zip(found().next())
+                .is_some_and(|(data, found)| comparable(found.unit, &data.unit).is_err())
+        };
+        let all = references();
+        let fitting: Vec<&str> = all
             .iter()
-            .filter(|observable| of.is_some_and(|of| observable.name == of))
-            .map(|observable| observable.kind)
-            .collect();
-        let fitting: Vec<&str> = REFERENCES
-            .iter()
-            .filter(|(_, is)| kinds.is_empty() || kinds.contains(is))
+            .filter(|(name, is)| (kinds.is_empty() || kinds.contains(is)) && !other_dimension(name))
             .map(|(name, _)| *name)
             .collect();
-        match (REFERENCES.iter().find(|(known, _)| *known == name), kinds.first()) {
+        match (all.iter().find(|(known, _)| *known == name), kinds.first()) {
             (None, _) => self.fault(
                 "against",
                 format!("there is no reference `{name}`"),
@@ -127,7 +140,35 @@ impl Reader<'_, '_> {
                 );
                 self.fault("against", message, format!("known: {}", fitting.join(", ")));
             }
-            _ => {}
+            _ => self.same_dimension(name, of),
+        }
+    }
+
+    /// Checks that published data have the dimension of the observable.
+    fn same_dimension(&mut self, name: &str, of: Option<&String>) {
+        let offered: Vec<Observable> = self.context.works.values().flat_map(observables).collect();
+        let found = of.and_then(|of| offered.iter().find(|observable| observable.name == of));
+        let data = published().iter().find(|entry| entry.name == name);
+        let (Some(found), Some(data)) = (found, data) else {
+            return;
+        };
+        if let Err((one, other)) = comparable(found.unit, &data.unit) {
+            let message = format!("`{}` is {one}, the reference `{name}` is {other}", found.name);
+            self.fault("against", message, "compare quantities of one dimension");
+        }
+    }
+
+    /// Checks that a norm is asked of a series.
+    pub(super) fn norm(&mut self, norm: Option<NormSpec>, of: &str) -> Norm {
+        let offered = self.context.works.values().flat_map(observables);
+        let scalar = |found: &Observable| found.name == of && found.kind == ObservableKind::Scalar;
+        if norm.is_some() && offered.into_iter().any(|found| scalar(&found)) {
+            let message = format!("`norm` is for a series, `{of}` is a scalar");
+            self.fault("norm", message, "leave `norm` out");
+        }
+        match norm {
+            Some(NormSpec::RootMeanSquare) => Norm::RootMeanSquare,
+            Some(NormSpec::Maximum) | None => Norm::Maximum,
         }
     }
 

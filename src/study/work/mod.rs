@@ -63,6 +63,7 @@ pub fn work(spec: &SceneSpec) -> Work {
                 SelfDisturbanceSpec::Corrected => SelfDisturbance::Corrected,
                 SelfDisturbanceSpec::Uncorrected => SelfDisturbance::Uncorrected,
             },
+            added_mass: matches!(sphere.added_mass, Switch::On),
             duration: sphere.duration.0,
             gravity: sphere.gravity.0,
         })),

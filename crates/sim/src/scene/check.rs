@@ -214,6 +214,14 @@ fn single_sphere(scene: &SingleSphere, list: &mut List) {
         gravity: scene.gravity,
     };
     let sound = common(&shared, list);
+    if let (true, Fluid::Sph(_)) = (scene.added_mass, &scene.fluid) {
+        list.add(
+            "added_mass",
+            "`added_mass: on` does not go with an `sph` fluid: its particles carry their own inertia"
+                .to_owned(),
+            "leave it off, or take the fluid `still` or `column`",
+        );
+    }
     if !list.between("release_height", scene.release_height, 0.0, 1.0) || !sound {
         return;
     }

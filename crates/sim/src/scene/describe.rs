@@ -60,10 +60,14 @@ fn numbers(settling: &Settling, dt: f64, description: &mut Description) {
         ("time step".to_owned(), dt, "s"),
         ("time step over relaxation time".to_owned(), dt / relaxation, "1"),
     ]);
-    if settling.sphere.is_some() && settling.duration < 40.0 * relaxation {
+    let response = match settling.sph() {
+        Some(_) => relaxation,
+        None => settling.response_time(),
+    };
+    if settling.sphere.is_some() && settling.duration < 40.0 * response {
         description.warnings.push(format!(
             "the run lasts {:.1} relaxation times; the terminal window wants 20 to 40",
-            settling.duration / relaxation
+            settling.duration / response
         ));
     }
     let fallen = speed * settling.duration;
@@ -108,9 +112,21 @@ fn grains_in_words(settling: &Settling, description: &mut Description) {
         }
         None => description.active.push("one grain released from rest".to_owned()),
     }
+    if settling.added_mass() > 0.0 {
+        description
+            .active
+            .push("added mass: half the displaced fluid".to_owned());
+        description
+            .left_out
+            .push("history force: the time to the terminal velocity comes out short".to_owned());
+    } else {
+        description
+            .left_out
+            .push("added mass and history force: not asked for".to_owned());
+    }
     description.left_out.extend([
         "contacts between grains: the grains of a rigid set never touch".to_owned(),
-        "rotation, lift and added mass: no scene of this kind asks for them".to_owned(),
+        "rotation and lift: no scene of this kind asks for them".to_owned(),
         "floor contact and its sub-steps: only within reach of the floor".to_owned(),
     ]);
 }

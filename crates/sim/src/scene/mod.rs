@@ -4,6 +4,7 @@ mod check;
 mod collision;
 mod describe;
 mod observables;
+mod passage;
 mod profiles;
 mod record;
 mod run_prescribed;
@@ -53,6 +54,9 @@ pub struct SingleSphere {
     pub coupling: Coupling,
     /// Whether the grain's own disturbance is taken out of the fluid velocity it sees.
     pub self_disturbance: SelfDisturbance,
+    /// Whether the grain carries fluid along when it accelerates: ½ρ_f V of added mass. For fluids that
+    /// are not solved.
+    pub added_mass: bool,
     /// Simulated time [s].
     pub duration: f64,
     /// Gravitational acceleration [m/s²].

@@ -45,6 +45,21 @@ const ALWAYS: &[Row] = &[
     ),
 ];
 
+const PRESCRIBED: &[Row] = &[
+    (
+        "largest_velocity",
+        "m/s",
+        Scalar,
+        "largest settling speed until one diameter is left above the floor",
+    ),
+    (
+        "terminal_time",
+        "s",
+        Scalar,
+        "time from rest to 95 % of the terminal velocity",
+    ),
+];
+
 const PARTICLES: &[Row] = &[
     (
         "terminal_slip",
@@ -213,7 +228,11 @@ pub fn observables(scene: &Scene) -> Vec<Observable> {
         Scene::BinaryCollision(collision) => return super::collision::observables(collision),
         Scene::Sedimentation(scene) => return super::sedimentation::observables(scene),
     };
-    let particles = if settling.sph().is_some() { PARTICLES } else { &[] };
+    let particles = if settling.sph().is_some() {
+        PARTICLES
+    } else {
+        PRESCRIBED
+    };
     let own = match (settling.sph().is_some(), settling.block.is_some()) {
         (false, _) => &[],
         (true, true) => BLOCK,

@@ -266,10 +266,13 @@ fn counters<L: DragLaw>(simulation: &Simulation<L>) -> Counters {
     }
 }
 
-/// When the speed counts as terminal [s]: 20 to 40 relaxation times for a sphere, the last 4 H/c for
-/// a block; cut to the run.
+/// When the speed counts as terminal [s]: 20 to 40 relaxation times for a sphere (response times where the
+/// fluid is not solved), the last 4 H/c for a block; cut to the run.
 pub fn terminal_window(settling: &Settling, sound_speed: Option<f64>) -> (f64, f64) {
-    let relaxation = settling.relaxation_time();
+    let relaxation = match (settling.sphere, settling.sph()) {
+        (Some(_), None) => settling.response_time(),
+        _ => settling.relaxation_time(),
+    };
     match (settling.block, sound_speed) {
         (Some(_), Some(c)) => {
             let length = (4.0 * settling.column.height / c).min(0.5 * settling.duration);

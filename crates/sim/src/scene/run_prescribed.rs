@@ -4,6 +4,7 @@
 //! pure fluid (model B): force = −V ρ_f g + f/ε with the drag f of the superficial slip.
 
 use super::Fluid;
+use super::passage::Passage;
 use super::record::{terminal_window, window_mean};
 use super::setup::Settling;
 use crate::drag::DragLaw;
@@ -13,55 +14,71 @@ use crate::outcome::{Column, Control, Counters, Failure, FailureKind, Outcome, S
 
 /// Rows of a time series at most.
 const ROWS: usize = 600;
+/// Share of the terminal velocity at which a grain counts as there [-].
+const TERMINAL: f64 = 0.95;
 
 /// Runs a scene without fluid particles under one drag law.
 pub fn run<L: DragLaw>(settling: &Settling, law: L, control: &Control) -> Result<Outcome, Box<Failure>> {
     let (dt, steps) = settling.steps();
     let start = settling.positions()[0].z;
-    let buoyancy = settling.mass() * settling.gravity - settling.excess_weight();
-    let mut rows = vec![[0.0, 0.0, start, 0.0, 0.0, buoyancy / settling.mass()]];
+    let mut rows = vec![[0.0, 0.0, start, 0.0, 0.0, fluid_acceleration(settling, 0.0)]];
+    let mut passage = Passage::of(settling, start);
     let (mut velocity, mut height) = (Vec3::zeros(), start);
     let held = settling.block.is_some_and(|block| block.held);
     let every = (steps as usize).div_ceil(ROWS);
     for step in 1..=steps {
         if (control.stop)() {
-            let partial = outcome(settling, &rows, dt, step);
+            let partial = outcome(settling, &rows, &passage, dt, step);
             return Err(Box::new(Failure {
                 kind: FailureKind::Stopped,
                 reason: "stopped from outside".into(),
                 partial,
             }));
         }
-        let beta = coefficient(settling, law, velocity.norm());
         if !held {
-            let weight = Vec3::new(0.0, 0.0, -settling.excess_weight());
-            let body = ExactDrag {
-                mass: settling.mass(),
-                drag: beta,
-                pull: Vec3::zeros(),
-                force: weight,
-            };
-            let (end, mean) = body.advance(velocity, dt);
+            let (end, mean) = advance(settling, law, velocity, dt);
             velocity = end;
             height = (height + mean.z * dt).max(0.5 * settling.grains.diameter);
             if height <= 0.5 * settling.grains.diameter {
                 velocity = Vec3::zeros();
             }
         }
+        let beta = coefficient(settling, law, velocity.norm());
+        passage.note([step as f64 * dt, -velocity.z, height]);
         if (step as usize).is_multiple_of(every) {
             let drag = -beta * velocity.z;
             let slip = superficial(settling, -velocity.z);
+            let time = step as f64 * dt;
             rows.push([
-                step as f64 * dt,
+                time,
                 -velocity.z,
                 height,
                 slip,
                 drag,
-                (drag + buoyancy) / settling.mass(),
+                fluid_acceleration(settling, drag),
             ]);
         }
     }
-    Ok(outcome(settling, &rows, dt, steps))
+    Ok(outcome(settling, &rows, &passage, dt, steps))
+}
+
+/// Velocity after a step and mean velocity over it, with the drag coefficient of the middle of the step:
+/// second order, exact at rest, at the terminal velocity and under Stokes drag.
+fn advance<L: DragLaw>(settling: &Settling, law: L, velocity: Vec3, dt: f64) -> (Vec3, Vec3) {
+    let body = |speed: f64| ExactDrag {
+        mass: settling.mass() + settling.added_mass(),
+        drag: coefficient(settling, law, speed),
+        pull: Vec3::zeros(),
+        force: Vec3::new(0.0, 0.0, -settling.excess_weight()),
+    };
+    let (predicted, _) = body(velocity.norm()).advance(velocity, 0.5 * dt);
+    body(predicted.norm()).advance(velocity, dt)
+}
+
+/// Acceleration of a grain by the fluid [m/s²], upward: drag, buoyancy and what added mass takes.
+fn fluid_acceleration(settling: &Settling, drag: f64) -> f64 {
+    let mass = settling.mass() + settling.added_mass();
+    (drag - settling.excess_weight()) / mass + settling.gravity
 }
 
 /// Superficial slip of a grain that moves at `speed`: ε v in a fluid at rest, v where it flows back.
@@ -79,7 +96,7 @@ fn coefficient<L: DragLaw>(settling: &Settling, law: L, speed: f64) -> f64 {
     share / porosity * settling.scale().coefficient(&law, share * speed, porosity)
 }
 
-fn outcome(settling: &Settling, rows: &[[f64; 6]], dt: f64, steps: u64) -> Outcome {
+fn outcome(settling: &Settling, rows: &[[f64; 6]], passage: &Passage, dt: f64, steps: u64) -> Outcome {
     let column = |name, unit, i: usize| Column {
         name,
         unit,
@@ -101,10 +118,14 @@ fn outcome(settling: &Settling, rows: &[[f64; 6]], dt: f64, steps: u64) -> Outco
         scalar("grains", "1", count),
         scalar("overlap", "1", 0.0),
     ];
+    scalars.push(scalar("largest_velocity", "m/s", passage.largest));
     let window = terminal_window(settling, None);
     if let Some((mean, drift)) = window_mean(&columns[0].values, &columns[1].values, window) {
         scalars.push(scalar("terminal_velocity", "m/s", mean));
         scalars.push(scalar("terminal_velocity_drift", "m/s", drift));
+        if let Some(time) = passage.time_to(TERMINAL * mean) {
+            scalars.push(scalar("terminal_time", "s", time));
+        }
     }
     Outcome {
         scalars,

@@ -119,6 +119,15 @@ impl<'a> Settling<'a> {
         self.grains.density * self.volume()
     }
 
+    /// Mass of the fluid that an accelerating grain carries along [kg]: that of half its volume, the
+    /// potential flow around a sphere (Lamb, 1932, Hydrodynamics, art. 92); zero where it is left out.
+    pub fn added_mass(&self) -> f64 {
+        match self.sphere {
+            Some(sphere) if sphere.added_mass => 0.5 * self.medium().density * self.volume(),
+            _ => 0.0,
+        }
+    }
+
     /// Weight less buoyancy of one grain [N].
     pub fn excess_weight(&self) -> f64 {
         (self.grains.density - self.medium().density) * self.volume() * self.gravity
@@ -141,6 +150,17 @@ impl<'a> Settling<'a> {
     /// Stokes relaxation time m/(3πμd) [s].
     pub fn relaxation_time(&self) -> f64 {
         self.mass() / (3.0 * PI * self.medium().viscosity * self.grains.diameter)
+    }
+
+    /// (m + added mass) v/F at the terminal velocity [s]: how fast a grain in a fluid that is not solved comes
+    /// to it. The relaxation time under Stokes drag without added mass; shorter by f(Re) under other laws.
+    pub fn response_time(&self) -> f64 {
+        let mass = self.mass() + self.added_mass();
+        let speed = self.expected_speed();
+        match speed > 0.0 {
+            true => mass * speed / self.excess_weight().abs(),
+            false => self.relaxation_time() * mass / self.mass(),
+        }
     }
 
     /// Particle spacing [m] of an sph fluid, adjusted to divide the width.
@@ -218,6 +238,7 @@ impl<'a> Settling<'a> {
     pub fn steps(&self) -> (f64, u64) {
         let wanted = match self.sph() {
             Some(sph) => sph.scheme.time_step.unwrap_or(self.step_limit(sph).0),
+            None if self.sphere.is_some() => self.response_time().min(self.relaxation_time()) / 50.0,
             None => self.relaxation_time() / 50.0,
         };
         let steps = (self.duration / wanted).ceil().max(1.0);

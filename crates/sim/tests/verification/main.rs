@@ -1,5 +1,6 @@
 //! What the simulator must show: closed forms, observed orders, conservation, failures, bit identity.
 
+mod beads;
 mod coupled;
 mod failures;
 mod hydrostatics;

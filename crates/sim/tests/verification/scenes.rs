@@ -40,6 +40,7 @@ pub fn sphere(fluid: Fluid) -> SingleSphere {
         release_height: 0.8,
         coupling: Coupling::TwoWay,
         self_disturbance: SelfDisturbance::Corrected,
+        added_mass: false,
         duration: 63e-3,
         gravity: GRAVITY,
     }
