@@ -15,39 +15,32 @@ const LAWS: [Drag; 5] = [
     Drag::CoulsonRichardson,
 ];
 
-/// Studies, scenes, drag laws and references with one line each.
+/// Studies, scenes, drag laws, expectations, references and figures with one line each.
 pub fn list(paint: Paint) -> String {
     let mut text = String::new();
-    let studies = study::list();
-    section(
-        &mut text,
-        paint,
-        "studies",
-        studies
-            .iter()
-            .map(|entry| (entry.name.as_str(), entry.meaning.clone())),
-    );
-    let scenes = study::scenes();
-    section(
-        &mut text,
-        paint,
-        "scenes",
-        scenes
-            .iter()
-            .map(|entry| (entry.name.as_str(), entry.meaning.clone())),
-    );
+    entries(&mut text, paint, "studies", &study::list());
+    entries(&mut text, paint, "scenes", &study::scenes());
     section(
         &mut text,
         paint,
         "drag laws",
         LAWS.iter().map(|law| (name(*law), meaning(*law).to_string())),
     );
+    entries(&mut text, paint, "expectations", &study::expectations());
     let references = reference::list();
     let lines = references
         .iter()
         .map(|entry| (entry.name, format!("{} [{}]", entry.meaning, entry.source)));
     section(&mut text, paint, "references", lines);
+    entries(&mut text, paint, "figures", &study::figures());
     text
+}
+
+fn entries(text: &mut String, paint: Paint, title: &str, entries: &[study::Entry]) {
+    let lines = entries
+        .iter()
+        .map(|entry| (entry.name.as_str(), entry.meaning.clone()));
+    section(text, paint, title, lines);
 }
 
 fn section<'a>(text: &mut String, paint: Paint, title: &str, lines: impl Iterator<Item = (&'a str, String)>) {

@@ -26,12 +26,14 @@ enum Tables {
 const INDEX: &str = include_str!("../../references/references.yaml");
 const TABLES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/tables.rs"));
 
-static CARRIED: LazyLock<Result<Library, ReferenceError>> = LazyLock::new(|| {
+static CARRIED: LazyLock<Result<Library, ReferenceError>> = LazyLock::new(built_in);
+
+fn built_in() -> Result<Library, ReferenceError> {
     Ok(Library {
         tables: Tables::Carried(TABLES),
         index: index("references.yaml", INDEX)?,
     })
-});
+}
 
 #[derive(Deserialize)]
 struct Index {
@@ -83,20 +85,18 @@ impl Library {
         CARRIED.as_ref().map_err(Clone::clone)
     }
 
-    /// Opens the folder `references` that lies nearest above a path: that of the studies which use it.
+    /// Opens the folder `references` that lies nearest above a path: that of the studies which use it;
+    /// without one, the folder that the program was built with.
     ///
     /// # Errors
-    /// No such folder, or one without a sound index.
+    /// A malformed index.
     pub fn above(path: &Path) -> Result<Library, ReferenceError> {
         let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
         let folders = whole.ancestors().skip(1).map(|folder| folder.join("references"));
         let mut indexed = folders.filter(|folder| folder.join("references.yaml").is_file());
         match indexed.next() {
             Some(folder) => Library::open(&folder),
-            None => Err(ReferenceError(format!(
-                "there is no folder `references` with a `references.yaml` above {}",
-                path.display()
-            ))),
+            None => built_in(),
         }
     }
 
@@ -414,10 +414,17 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn the_folder_is_found_above_a_study() {
-        let study = folder().parent().unwrap().join("studies/deep/one.yaml");
-        assert!(Library::above(&study).is_ok());
-        assert!(Library::above(Path::new("/nowhere/one.yaml")).is_err());
+    fn the_folder_above_a_study_comes_before_the_one_of_the_program() {
+        let home = tempfile::tempdir().unwrap();
+        let study = home.path().join("studies/deep/one.yaml");
+        let datasets = || Library::above(&study).map(|library| library.datasets().len());
+        assert_eq!(datasets(), Ok(TABLES.len()));
+        let own = home.path().join("references");
+        std::fs::create_dir(&own).unwrap();
+        std::fs::write(own.join("references.yaml"), "{citations: {}, datasets: []}").unwrap();
+        assert_eq!(datasets(), Ok(0));
+        std::fs::write(own.join("references.yaml"), "nothing").unwrap();
+        assert!(datasets().is_err());
     }
 
     #[test]

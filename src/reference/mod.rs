@@ -141,6 +141,11 @@ pub fn points(name: &str, facts: &Facts) -> Result<Option<Points>, ReferenceErro
     }
 }
 
+/// Whether a name is that of published data, not of a solution.
+pub fn is_published(name: &str) -> bool {
+    matches!(data::find(name), Ok(Some(_)))
+}
+
 /// Every reference there is, solutions first.
 pub fn list() -> Vec<Entry> {
     let solutions = solutions().into_iter().map(|solution| solution.entry);

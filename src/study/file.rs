@@ -164,11 +164,23 @@ fn question(path: &Path) -> String {
 
 /// Every scene a study may name, with one line each.
 pub fn scenes() -> Vec<Entry> {
+    choices("SceneSpec")
+}
+
+/// Every kind of expectation, with one line each.
+pub fn expectations() -> Vec<Entry> {
+    choices("ExpectationSpec")
+}
+
+/// Every kind of figure, with one line each.
+pub fn figures() -> Vec<Entry> {
+    choices("FigureSpec")
+}
+
+/// Names and first lines of what a study file chooses from.
+fn choices(of: &str) -> Vec<Entry> {
     let schema = super::schema();
-    let variants = schema["$defs"]["SceneSpec"]["oneOf"]
-        .as_array()
-        .into_iter()
-        .flatten();
+    let variants = schema["$defs"][of]["oneOf"].as_array().into_iter().flatten();
     variants
         .filter_map(|variant| {
             let name = variant["properties"].as_object()?.keys().next()?.clone();

@@ -33,11 +33,11 @@ const HARNESS: [Allowed; 8] = [
 const SIMULATOR_LEVELS: [&[&str]; 10] = [
     &["outcome", "math"],
     &["state"],
-    &["neighbours"],
+    &["neighbours", "arrangement"],
     &["contact", "cohesion", "drag", "fluid"],
     &["coupling"],
     &["integrator"],
-    &["simulation"],
+    &["simulation", "bed"],
     &["observable"],
     &["scene"],
     &["lib"],

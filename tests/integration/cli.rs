@@ -458,6 +458,10 @@ fn listing_and_explaining_need_no_store() {
         "single_sphere",
         "di_felice",
         "force_balance",
+        "dong_2006",
+        "compare",
+        "response",
+        "snapshots",
     ] {
         assert!(said.out.contains(word), "{word}: {}", said.out);
     }

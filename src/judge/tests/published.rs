@@ -2,6 +2,8 @@
 
 use serde_json::{Value, json};
 
+use super::{error_below, one, reason};
+use crate::judge::model::Outcome;
 use crate::judge::point_error::point_error;
 use crate::store::model::{Column, PointId, Run, Scalar, Status, Table, Timing};
 use crate::study::model::Norm;
@@ -116,4 +118,45 @@ fn a_speed_is_not_compared_with_a_time() {
     // Solutions have a dimension too.
     let found = point_error(&fitted(1.0), "time_step", "terminal_velocity", Norm::Maximum);
     assert!(found.is_err());
+}
+
+/// A bed settled in the fluid of a row of the data, which give 0.6056.
+fn bed(seed: u64, solids_fraction: f64) -> Run {
+    Run {
+        id: PointId(format!("bed-{seed}")),
+        seed,
+        settings: json!({"sedimentation": {"fluid": {"still": {"density": 1005.1, "viscosity": 1e-3}}}}),
+        scalars: vec![scalar("solids_fraction", "1", solids_fraction)],
+        ..bead(Vec::new(), Vec::new())
+    }
+}
+
+#[test]
+fn the_mean_over_seeds_is_held_to_a_published_value() {
+    let judged = |fractions: &[f64], below| {
+        let runs: Vec<Run> = fractions
+            .iter()
+            .zip(1..)
+            .map(|(&fraction, seed)| bed(seed, fraction))
+            .collect();
+        one(error_below("solids_fraction", "dong_2006", below), &runs)
+    };
+    // Every seed is off by more than 1 %, their mean is not.
+    let around = [0.5956, 0.6156, 0.5976, 0.6146, 0.5966, 0.6136];
+    assert!(
+        around
+            .iter()
+            .all(|one| judged(&[*one], 0.01).verdict == Outcome::Fails)
+    );
+    let verdict = judged(&around, 0.03);
+    assert_eq!(verdict.verdict, Outcome::Holds, "{}", reason(&verdict));
+    assert_eq!(verdict.points.len(), 1);
+    assert_eq!(verdict.expected, Some(0.6056));
+    assert!((verdict.computed.unwrap() - 0.6056).abs() < 1e-12);
+    assert!(verdict.half_width.unwrap() > 0.0);
+    assert!(verdict.source.contains("Dong"), "{}", verdict.source);
+    // The interval of the mean reaches past 1 %: more seeds are needed.
+    assert_eq!(judged(&around, 0.01).verdict, Outcome::NotDecidable);
+    let loose = around.map(|fraction| fraction - 0.06);
+    assert_eq!(judged(&loose, 0.03).verdict, Outcome::Fails);
 }

@@ -1,5 +1,7 @@
 //! A scalar over an axis: means over seeds with their scatter, references and published data beside.
 
+mod beside;
+
 use super::super::axis::Scale;
 use super::super::canvas::{Area, Stroke};
 use super::super::legend::Entry;
@@ -8,10 +10,10 @@ use super::super::theme::{self, Style};
 use super::{Cell, Material, Plate, Table, distinct, lines};
 use crate::judge::point_error::{Mean, mean_scalar};
 use crate::judge::select::{Chain, Replicates, chains, gathered};
-use crate::reference::library::Library;
 use crate::report::format::Unit;
 use crate::report::{ReportError, format, selection};
-use crate::study::model::{Beside, DataSeries};
+use crate::study::model::Beside;
+use beside::{Other, others};
 
 pub struct Question<'a> {
     pub of: &'a str,
@@ -27,15 +29,6 @@ struct Curve<'a> {
     label: String,
     style: Style,
     points: Vec<(f64, Mean, Replicates<'a>)>,
-}
-
-/// What stands beside: a line for a reference, markers for data; SI units.
-struct Other {
-    label: String,
-    style: Style,
-    points: Vec<(f64, f64)>,
-    line: bool,
-    source: String,
 }
 
 pub fn draw(material: &Material, question: &Question, group: Option<&str>) -> Result<Plate, ReportError> {
@@ -121,78 +114,6 @@ fn curve<'a>(chain: Chain<'a>, of: &str, label: String, style: Style) -> Result<
         points.push((at, mean, replicates));
     }
     Ok(Curve { label, style, points })
-}
-
-fn others(material: &Material, question: &Question, curves: &[Curve]) -> Result<Vec<Other>, ReportError> {
-    let mut others = Vec::new();
-    let mut library = None;
-    for (index, beside) in question.against.iter().enumerate() {
-        match beside {
-            Beside::Reference(name) => others.extend(references(material, question.of, name, curves)?),
-            Beside::Data(series) => {
-                let library = match &library {
-                    Some(library) => library,
-                    None => library.insert(Library::above(&material.study.path).map_err(told)?),
-                };
-                others.push(data(library, series, index)?);
-            }
-        }
-    }
-    Ok(others)
-}
-
-fn told(error: crate::reference::ReferenceError) -> ReportError {
-    ReportError(error.to_string())
-}
-
-/// A reference at the points of each curve; equal lines once.
-fn references(
-    material: &Material,
-    of: &str,
-    name: &str,
-    curves: &[Curve],
-) -> Result<Vec<Other>, ReportError> {
-    let mut found: Vec<Other> = Vec::new();
-    for curve in curves {
-        let mut points = Vec::new();
-        let mut source = String::new();
-        for (at, _, replicates) in &curve.points {
-            let error = (material.numbers.error)(replicates.first(), of, name).map_err(ReportError)?;
-            let none = || ReportError(format!("the reference `{name}` has no value here"));
-            points.push((*at, error.expected.ok_or_else(none)?));
-            source = error.source;
-        }
-        if !found.iter().any(|other| other.points == points) {
-            found.push(Other {
-                label: format!("reference ({})", format::words(name)),
-                style: lines::reference_style(),
-                points,
-                line: true,
-                source,
-            });
-        }
-    }
-    Ok(found)
-}
-
-fn data(library: &Library, series: &DataSeries, index: usize) -> Result<Other, ReportError> {
-    let set = library.dataset(&series.file).map_err(told)?;
-    let pairs = set.pairs((&series.x, &series.y), &series.rows).map_err(told)?;
-    let (across, up) = series.factors;
-    let mut points: Vec<_> = pairs.into_iter().map(|(x, y)| (x * across, y * up)).collect();
-    points.sort_by(|one, other| one.0.total_cmp(&other.0));
-    Ok(Other {
-        label: series.label.clone().unwrap_or_else(|| format::words(&series.y)),
-        style: Style {
-            colour: theme::INK,
-            // From the other end, so that the first data set and the first group differ.
-            marker: theme::style(index + 1).marker,
-            dash: theme::SOLID,
-        },
-        points,
-        line: false,
-        source: library.source(&series.file).map_err(told)?,
-    })
 }
 
 fn units(

@@ -45,7 +45,9 @@ fn run(density: f64, viscosity: f64, seed: u64) -> Run {
             ("viscosity".into(), AxisValue::Number(viscosity)),
         ],
         seed,
-        settings: serde_json::json!({"sedimentation": {"container": {"width": 2.5e-3, "height": 10e-3}}}),
+        settings: serde_json::json!({"sedimentation": {
+            "container": {"width": 2.5e-3, "height": 10e-3},
+            "fluid": {"still": {"density": density, "viscosity": viscosity}}}}),
         status: Status::Completed,
         reason: None,
         scalars: vec![Scalar {
@@ -405,6 +407,32 @@ fn published_data_stand_beside_in_si_units_with_their_citation() {
     series.file = "beads.csv".into();
     let why = draw(&Beside::Data(series)).unwrap_err().to_string();
     assert!(why.contains("beads.csv"), "{why}");
+}
+
+#[test]
+fn published_references_stand_where_they_have_a_value() {
+    let draw = |runs: &[Run], name: &str| {
+        let beside = vec![Beside::Reference(name.into())];
+        let figure = drawn("r", response(Some("viscosity"), beside), Selection::default());
+        figure::draw(&study("studies/beds.yaml"), runs, &figure, &Numbers::JUDGED)
+    };
+    let plate = draw(&runs(), "dong_2006").unwrap();
+    let csv = plate.table.csv();
+    let beside: Vec<&str> = csv.lines().filter(|line| line.starts_with("dong")).collect();
+    // The data have 500 kg/m³; the other densities of these runs lie between theirs.
+    assert_eq!(beside, ["dong 2006,500,0.6071,,,"]);
+    assert!(
+        plate.notes.iter().any(|note| note.contains("Dong, K. J.")),
+        "{:?}",
+        plate.notes
+    );
+    assert_readable(&plate);
+    let elsewhere: Vec<Run> = DENSITIES[1..]
+        .iter()
+        .map(|density| run(*density, 1e-3, 1))
+        .collect();
+    let why = draw(&elsewhere, "dong_2006").unwrap_err().to_string();
+    assert!(why.contains("no row with `fluid.density`"), "{why}");
 }
 
 #[test]

@@ -187,34 +187,78 @@ pub(super) fn remember<W: Wide>(history: &mut History, touches: W::Mask, displac
     true
 }
 
-/// Adds the forces of all pairs in the order of the list. Returns the greatest overlap over the
-/// smaller diameter.
-pub struct PairSweep<'a> {
-    pub interaction: &'a Interaction,
-    pub grains: &'a Grains,
-    pub pairs: &'a mut PairList,
-    /// Time since the histories were last moved on [s].
-    pub elapsed: f64,
-    /// F_x, F_y, F_z [N], spare, T_x, T_y, T_z [N m], spare, of each grain.
-    pub forces: &'a mut [Record],
+/// Where the efforts of a block go.
+pub trait Sink {
+    /// A block at this place of the list will be needed soon.
+    fn expect(&mut self, _: &Block) {}
+    fn take(&mut self, place: usize, block: &Block, efforts: Option<Efforts>);
 }
 
-impl WideWork for PairSweep<'_> {
+/// Adds them to the forces of the grains: F_x, F_y, F_z [N], spare, T_x, T_y, T_z [N m], spare.
+impl Sink for &mut [Record] {
+    #[inline(always)]
+    fn expect(&mut self, block: &Block) {
+        for member in block.members.as_flattened() {
+            prefetch(self, *member);
+        }
+    }
+
+    #[inline(always)]
+    fn take(&mut self, _: usize, block: &Block, efforts: Option<Efforts>) {
+        let [first, second] = &block.members;
+        if let Some([on_first, on_second]) = efforts {
+            for (grain, effort) in first.iter().zip(&on_first) {
+                add(&mut self[*grain as usize], effort);
+            }
+            for (grain, effort) in second.iter().zip(&on_second) {
+                add(&mut self[*grain as usize], effort);
+            }
+        }
+    }
+}
+
+/// A stretch of a list of pairs.
+pub struct Stretch<'a> {
+    pub blocks: &'a [Block],
+    pub histories: &'a mut [History],
+    pub live: &'a mut [bool],
+}
+
+impl PairList {
+    pub fn whole(&mut self) -> Stretch<'_> {
+        Stretch {
+            blocks: &self.blocks[..self.active],
+            histories: &mut self.histories[..self.active],
+            live: &mut self.live[..self.active],
+        }
+    }
+}
+
+/// Evaluates pairs in the order of the list. Returns the greatest overlap over the smaller diameter.
+pub struct PairSweep<'a, S> {
+    pub interaction: &'a Interaction,
+    pub grains: &'a Grains,
+    pub pairs: Stretch<'a>,
+    /// Time since the histories were last moved on [s].
+    pub elapsed: f64,
+    pub sink: S,
+}
+
+impl<S: Sink> WideWork for PairSweep<'_, S> {
     type Output = f64;
 
     #[inline(always)]
-    fn run<W: Wide>(self) -> f64 {
+    fn run<W: Wide>(mut self) -> f64 {
         let mut deepest = W::splat(0.0);
-        let ahead = if self.forces.len() > IN_CACHE {
+        let ahead = if self.grains.len() > IN_CACHE {
             AHEAD
         } else {
             usize::MAX / 2
         };
-        let PairList {
+        let Stretch {
             blocks,
             histories,
             live,
-            ..
         } = self.pairs;
         for (place, ((block, history), live)) in blocks.iter().zip(histories).zip(live).enumerate() {
             // Partners lie scattered: large beds would wait for memory at every block.
@@ -222,22 +266,13 @@ impl WideWork for PairSweep<'_> {
                 for member in next.members.as_flattened() {
                     prefetch(&self.grains.motion, *member);
                     prefetch(&self.grains.spin, *member);
-                    prefetch(self.forces, *member);
                 }
+                self.sink.expect(next);
             }
             let efforts =
                 self.interaction
                     .block(self.grains, block, (history, live), self.elapsed, &mut deepest);
-            if let Some(efforts) = efforts {
-                for lane in 0..LANES {
-                    for end in 0..2 {
-                        add(
-                            &mut self.forces[block.members[end][lane] as usize],
-                            &efforts[end][lane],
-                        );
-                    }
-                }
-            }
+            self.sink.take(place, block, efforts);
         }
         deepest.lanes().into_iter().fold(0.0, f64::max)
     }

@@ -10,7 +10,7 @@ pub struct Grains {
     /// x, y, z [m], R [m], v_x, v_y, v_z [m/s], 1/m [1/kg]
     pub motion: Vec<Record>,
     /// ω_x, ω_y, ω_z [rad/s], 1/I [1/(kg m²)], porosity it sees [-], fluid velocity it sees along z
-    /// [m/s], force on it of its neighbours' drag [N], spare
+    /// [m/s], force on it of its neighbours' drag [N], 1 where it is awake and 0 where it sleeps
     pub spin: Vec<Record>,
     /// The number each grain was given at the start.
     pub number: Vec<u32>,
@@ -60,7 +60,7 @@ impl Grains {
             ]));
             grains
                 .spin
-                .push(Record([w.x, w.y, w.z, free / body.inertia, 1.0, 0.0, 0.0, 0.0]));
+                .push(Record([w.x, w.y, w.z, free / body.inertia, 1.0, 0.0, 0.0, 1.0]));
             grains.number.push(number as u32);
             grains.class.push(grain.class);
         }

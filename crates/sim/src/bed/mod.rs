@@ -5,10 +5,12 @@
 
 mod attraction;
 mod contacts;
+mod crew;
 mod grains;
 mod motion;
 mod pairs;
 mod scheme;
+mod sleep;
 mod slices;
 mod touching;
 mod walls;
@@ -26,8 +28,10 @@ use crate::math::Vec3;
 use crate::neighbours::{Record, Search, in_widest};
 
 use contacts::PairSweep;
-use motion::KickAndDrift;
+use crew::Crew;
+use motion::{KickAndDrift, Stride};
 use pairs::PairList;
+use sleep::Sleep;
 use walls::{WallSweep, Walls};
 
 /// Skin of a list where every step makes its own [m over the smallest diameter].
@@ -82,6 +86,10 @@ pub struct Bed {
     walls: Walls,
     pairs: PairList,
     forces: Vec<Record>,
+    /// `None` where one thread does everything.
+    crew: Option<Crew>,
+    /// `None` where nobody ever sleeps.
+    sleep: Option<Sleep>,
     /// Way every grain may go before the lists must be renewed [m].
     slack: f64,
     /// Smallest diameter [m].
@@ -113,12 +121,26 @@ impl Bed {
             deepest: 0.0,
             walls: Walls::new(walls),
             pairs: PairList::default(),
+            crew: None,
+            sleep: None,
             slack: 0.0,
             smallest,
         };
         bed.renew_lists(0.0);
+        if let Some(porosity) = &mut bed.porosity {
+            porosity.refresh(&mut bed.grains, &bed.surroundings);
+        }
         bed.sum_forces(0.0);
         bed
+    }
+
+    /// Takes so many threads from now on; results do not depend on it.
+    pub fn with_threads(mut self, threads: usize) -> Self {
+        self.crew = Crew::new(threads);
+        if let Some(crew) = &mut self.crew {
+            crew.learn(&self.pairs, &self.grains);
+        }
+        self
     }
 
     /// Advances by `steps` time steps; velocities and positions belong to the same instant after it.
@@ -128,16 +150,21 @@ impl Bed {
     pub fn advance(&mut self, steps: u64) -> Result<(), Astray> {
         let dt = self.interaction.time_step;
         for step in 0..steps {
+            if self.sleep.as_ref().is_some_and(|sleep| sleep.all(&self.grains)) {
+                return Ok(());
+            }
             let kick = if step == 0 { 0.5 * dt } else { dt };
             let fastest = self.move_on(kick, dt)?;
             self.work.steps += 1;
             self.slack -= fastest * dt;
             if self.slack < 0.0 {
                 self.renew_lists(fastest);
-            } else if let Some(porosity) = &mut self.porosity {
+            }
+            if let Some(porosity) = &mut self.porosity {
                 porosity.follow(&mut self.grains, &self.surroundings, fastest * dt, dt);
             }
             self.sum_forces(dt);
+            self.rouse_and_rest();
         }
         if steps > 0 {
             self.move_on(0.5 * dt, 0.0)?;
@@ -148,14 +175,23 @@ impl Bed {
     /// Kicks and drifts; returns the greatest speed [m/s].
     fn move_on(&mut self, kick: f64, drift: f64) -> Result<f64, Astray> {
         let limit = self.speed_limit();
-        let fastest = in_widest(KickAndDrift {
-            surroundings: &self.surroundings,
-            grains: &mut self.grains,
-            forces: &mut self.forces,
-            kick,
-            drift,
-            limit,
-        });
+        let stride = Stride { kick, drift, limit };
+        let moving = self.grains.moving;
+        let (own, fixed) = self.forces.split_at_mut(moving);
+        // What acts on fixed grains moves nobody.
+        fixed.fill(Record::default());
+        let (motion, spin) = (&mut self.grains.motion[..moving], &mut self.grains.spin[..moving]);
+        let surroundings = &self.surroundings;
+        let fastest = match &self.crew {
+            Some(crew) => crew.move_on(surroundings, [motion, spin, own], stride),
+            None => in_widest(KickAndDrift {
+                surroundings,
+                motion,
+                spin,
+                forces: own,
+                stride,
+            }),
+        };
         if fastest.is_finite() {
             Ok(fastest)
         } else {
@@ -213,22 +249,26 @@ impl Bed {
             &memories,
         );
         self.walls.renew(grains, reach, &wall_memories);
-        self.work.lists += 1;
-        // The slices know the grains by their order.
-        if let Some(porosity) = &mut self.porosity {
-            porosity.refresh(&mut self.grains, &self.surroundings);
+        if let Some(crew) = &mut self.crew {
+            crew.learn(&self.pairs, grains);
         }
+        self.find_border();
+        self.work.lists += 1;
     }
 
     /// Sums the forces on all grains; histories move on by `elapsed` [s].
     fn sum_forces(&mut self, elapsed: f64) {
-        let deepest = in_widest(PairSweep {
-            interaction: &self.interaction,
-            grains: &self.grains,
-            pairs: &mut self.pairs,
-            elapsed,
-            forces: &mut self.forces,
-        });
+        let (interaction, grains) = (&self.interaction, &self.grains);
+        let deepest = match &mut self.crew {
+            Some(crew) => crew.sum(interaction, grains, &mut self.pairs, elapsed, &mut self.forces),
+            None => in_widest(PairSweep {
+                interaction,
+                grains,
+                pairs: self.pairs.whole(),
+                elapsed,
+                sink: &mut self.forces[..],
+            }),
+        };
         let at_walls = in_widest(WallSweep {
             interaction: &self.interaction,
             grains: &self.grains,

@@ -13,8 +13,6 @@ use crate::drag::{self, AnyDrag};
 use crate::math::{Number, Vector, elementary};
 use crate::neighbours::{LANES, Record, Wide, WideWork};
 
-use super::grains::Grains;
-
 /// What acts on every grain without a partner.
 #[derive(Clone, Copy, Debug)]
 pub struct Surroundings {
@@ -28,11 +26,18 @@ pub struct Surroundings {
     pub drag: Option<AnyDrag>,
 }
 
-/// Moves all grains on and clears their forces.
+/// Moves grains on and clears their forces.
 pub struct KickAndDrift<'a> {
     pub surroundings: &'a Surroundings,
-    pub grains: &'a mut Grains,
+    pub motion: &'a mut [Record],
+    pub spin: &'a mut [Record],
     pub forces: &'a mut [Record],
+    pub stride: Stride,
+}
+
+/// How far a pass moves the grains on.
+#[derive(Clone, Copy, Debug)]
+pub struct Stride {
     /// Time over which the forces act [s].
     pub kick: f64,
     /// Time over which the grains fly [s]. Forces are cleared when they have flown.
@@ -41,6 +46,13 @@ pub struct KickAndDrift<'a> {
     pub limit: f64,
 }
 
+/// What empty lanes hold, motion, spin and forces: a body in clear fluid that nothing moves.
+const NOBODY: [Record; 3] = [
+    Record([0.0; 8]),
+    Record([0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]),
+    Record([0.0; 8]),
+];
+
 /// Returns the greatest speed [m/s]: infinite where a grain is beyond the limit or has no number for
 /// its velocity.
 impl WideWork for KickAndDrift<'_> {
@@ -48,29 +60,37 @@ impl WideWork for KickAndDrift<'_> {
 
     #[inline(always)]
     fn run<W: Wide>(self) -> f64 {
+        const ALL: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7];
         let mut fastest = W::splat(0.0);
-        let limit = W::splat(self.limit * self.limit);
-        let nobody = self.grains.len() as u32;
-        let moving = self.grains.moving;
-        for first in (0..moving).step_by(LANES) {
-            let mut members = [nobody; LANES];
-            for (lane, member) in members.iter_mut().enumerate().take(moving - first) {
-                *member = (first + lane) as u32;
-            }
-            let motion = W::gather(&self.grains.motion, &members);
-            let spin = W::gather(&self.grains.spin, &members);
-            let forces = W::gather(self.forces, &members);
-            let (motion, spin, squared) = eight(&self, motion, spin, forces);
+        let limit = W::splat(self.stride.limit * self.stride.limit);
+        let eights = self.motion.chunks_mut(LANES).zip(self.spin.chunks_mut(LANES));
+        for ((motion, spin), forces) in eights.zip(self.forces.chunks_mut(LANES)) {
+            let count = motion.len();
+            let mut filled = NOBODY.map(|nobody| [nobody; LANES]);
+            let lanes = if count == LANES {
+                [
+                    W::gather(motion, &ALL),
+                    W::gather(spin, &ALL),
+                    W::gather(forces, &ALL),
+                ]
+            } else {
+                filled[0][..count].copy_from_slice(motion);
+                filled[1][..count].copy_from_slice(spin);
+                filled[2][..count].copy_from_slice(forces);
+                [
+                    W::gather(&filled[0], &ALL),
+                    W::gather(&filled[1], &ALL),
+                    W::gather(&filled[2], &ALL),
+                ]
+            };
+            let (moved, turned, squared) = eight(self.surroundings, &self.stride, lanes);
             let sound = squared.below(limit);
             fastest = W::select(sound, fastest.max(squared), W::splat(f64::INFINITY));
-            let (motion, spin) = (W::records(motion), W::records(spin));
-            for lane in 0..LANES.min(moving - first) {
-                self.grains.motion[first + lane] = motion[lane];
-                self.grains.spin[first + lane] = spin[lane];
+            motion.copy_from_slice(&W::records(moved)[..count]);
+            spin.copy_from_slice(&W::records(turned)[..count]);
+            if self.stride.drift > 0.0 {
+                forces.fill(Record::default());
             }
-        }
-        if self.drift > 0.0 {
-            self.forces.fill(Record::default());
         }
         fastest.lanes().into_iter().fold(0.0, f64::max).sqrt()
     }
@@ -78,16 +98,19 @@ impl WideWork for KickAndDrift<'_> {
 
 /// New motion and spin of eight grains, and their speeds squared.
 #[inline(always)]
-fn eight<W: Wide>(step: &KickAndDrift, motion: [W; 8], spin: [W; 8], forces: [W; 8]) -> ([W; 8], [W; 8], W) {
+fn eight<W: Wide>(
+    surroundings: &Surroundings,
+    stride: &Stride,
+    [motion, spin, forces]: [[W; 8]; 3],
+) -> ([W; 8], [W; 8], W) {
     let [x, y, z, radius, vx, vy, vz, inverse_mass] = motion;
-    let [wx, wy, wz, inverse_inertia, porosity, fluid, neighbours, spare] = spin;
-    let surroundings = step.surroundings;
+    let [wx, wy, wz, inverse_inertia, porosity, fluid, neighbours, awake] = spin;
     let displaced = W::splat(4.0 / 3.0 * PI * surroundings.fluid_density * surroundings.gravity);
     let buoyancy = displaced * radius * radius * radius;
     let mut push = Vector::new(forces[0], forces[1], forces[2] + buoyancy + neighbours) * inverse_mass;
     push.z = push.z - W::splat(surroundings.gravity);
     let velocity = Vector::new(vx, vy, vz);
-    let kick = W::splat(step.kick);
+    let kick = W::splat(stride.kick);
     let velocity = match &surroundings.drag {
         None => velocity + push * kick,
         Some(drag) => {
@@ -100,8 +123,10 @@ fn eight<W: Wide>(step: &KickAndDrift, motion: [W; 8], spin: [W; 8], forces: [W;
             velocity + (push + slip * rate) * (kick * mean_decay(rate * kick))
         }
     };
+    // Sleepers stay where they are.
+    let velocity = velocity * awake;
     let turn = inverse_inertia * kick;
-    let drift = W::splat(step.drift);
+    let drift = W::splat(stride.drift);
     (
         [
             x + velocity.x * drift,
@@ -114,14 +139,14 @@ fn eight<W: Wide>(step: &KickAndDrift, motion: [W; 8], spin: [W; 8], forces: [W;
             inverse_mass,
         ],
         [
-            wx + forces[4] * turn,
-            wy + forces[5] * turn,
-            wz + forces[6] * turn,
+            (wx + forces[4] * turn) * awake,
+            (wy + forces[5] * turn) * awake,
+            (wz + forces[6] * turn) * awake,
             inverse_inertia,
             porosity,
             fluid,
             neighbours,
-            spare,
+            awake,
         ],
         velocity.norm_squared(),
     )

@@ -33,6 +33,15 @@ impl History {
     }
 }
 
+/// What is to be expected of a pair until the list is made anew.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    Touching,
+    Apart,
+    /// Both partners stay where they are.
+    Dormant,
+}
+
 /// Blocks of pairs with their histories.
 #[derive(Clone, Debug, Default)]
 pub struct PairList {
@@ -40,33 +49,50 @@ pub struct PairList {
     pub histories: Vec<History>,
     /// Whether a block remembers anything.
     pub live: Vec<bool>,
-    /// Pairs without the filling of the last block.
+    /// Blocks that are evaluated; those behind them are dormant.
+    pub active: usize,
+    /// Pairs in them.
     pub count: usize,
+    /// Partners in lanes that are left over: a pair that never touches.
+    filling: [u32; 2],
 }
 
 impl PairList {
     /// Blocks of the pairs, those that touch now first: blocks in which nobody touches are passed over.
-    /// Lanes left over hold `filling`, a pair that never touches.
-    pub fn new(mut pairs: Vec<(u32, u32)>, touching: impl Fn(u32, u32) -> bool, filling: [u32; 2]) -> Self {
-        let count = pairs.len();
-        // A stable partition: the order within both parts is kept.
-        let (mut near, apart): (Vec<_>, Vec<_>) = pairs.drain(..).partition(|&(i, j)| touching(i, j));
+    pub fn new(
+        pairs: impl Iterator<Item = [u32; 2]>,
+        standing: impl Fn([u32; 2]) -> Standing,
+        filling: [u32; 2],
+    ) -> Self {
+        // The order within each part is kept.
+        let (mut near, mut apart, mut dormant) = (Vec::new(), Vec::new(), Vec::new());
+        for pair in pairs {
+            match standing(pair) {
+                Standing::Touching => near.push(pair),
+                Standing::Apart => apart.push(pair),
+                Standing::Dormant => dormant.push(pair),
+            }
+        }
         near.extend(apart);
-        let blocks: Vec<Block> = near
-            .chunks(LANES)
-            .map(|chunk| Block {
-                members: [0, 1].map(|end| {
-                    std::array::from_fn(|lane| {
-                        chunk.get(lane).map_or(filling[end], |pair| [pair.0, pair.1][end])
-                    })
-                }),
-            })
-            .collect();
+        let packed = |pairs: &[[u32; 2]]| -> Vec<Block> {
+            let lane = |chunk: &[[u32; 2]], end: usize, lane: usize| chunk.get(lane).unwrap_or(&filling)[end];
+            let chunks = pairs.chunks(LANES);
+            chunks
+                .map(|chunk| Block {
+                    members: [0, 1].map(|end| std::array::from_fn(|place| lane(chunk, end, place))),
+                })
+                .collect()
+        };
+        let mut blocks = packed(&near);
+        let active = blocks.len();
+        blocks.extend(packed(&dormant));
         PairList {
             histories: vec![History::default(); blocks.len()],
             live: vec![false; blocks.len()],
             blocks,
-            count,
+            active,
+            count: near.len(),
+            filling,
         }
     }
 
@@ -80,30 +106,31 @@ impl PairList {
     ) -> Self {
         let mut pairs = Vec::new();
         *looked_at += visit_near_pairs(search, grains.spheres(), grains.moving, period, reach, |i, j| {
-            pairs.push((i, j));
+            pairs.push([i, j]);
         });
-        let touching = |i: u32, j: u32| {
-            let (a, b) = (&grains.motion[i as usize].0, &grains.motion[j as usize].0);
-            let squared: f64 = (0..3)
-                .map(|axis| {
-                    let mut apart = (a[axis] - b[axis]).abs();
-                    if period[axis] > 0.0 {
-                        apart = apart.min(period[axis] - apart);
-                    }
-                    apart * apart
-                })
-                .sum();
-            squared < (a[3] + b[3]).powi(2)
-        };
         let never = grains.len() as u32;
-        PairList::new(pairs, touching, [never, never + 1])
+        PairList::new(
+            pairs.into_iter(),
+            |pair| standing(grains, period, pair),
+            [never, never + 1],
+        )
     }
 
-    fn pairs(&self) -> impl Iterator<Item = (usize, usize, [u32; 2])> + '_ {
-        (0..self.count).map(|pair| {
-            let (block, lane) = (pair / LANES, pair % LANES);
-            (block, lane, self.blocks[block].members.map(|end| end[lane]))
-        })
+    /// The same pairs with the same memories, sorted by how they stand now.
+    pub fn sorted_anew(&self, grains: &Grains, period: Period) -> Self {
+        let pairs = self.pairs().map(|(.., pair)| pair);
+        let mut sorted = PairList::new(pairs, |pair| standing(grains, period, pair), self.filling);
+        let own = |places: [u32; 2]| places;
+        sorted.recall(own, &self.memories(own, grains.len()));
+        sorted
+    }
+
+    /// Block, lane and partners of every pair.
+    pub fn pairs(&self) -> impl Iterator<Item = (usize, usize, [u32; 2])> + '_ {
+        let lanes = self.blocks.iter().enumerate().flat_map(|(place, block)| {
+            (0..LANES).map(move |lane| (place, lane, block.members.map(|end| end[lane])))
+        });
+        lanes.filter(|(.., pair)| pair[0] != self.filling[0])
     }
 
     /// What is remembered, by the names of the partners: `names` turns places into names that outlive
@@ -126,9 +153,9 @@ impl PairList {
 
     /// Gives the contacts back what they remember.
     pub fn recall(&mut self, names: impl Fn([u32; 2]) -> [u32; 2], memories: &Memories) {
-        for pair in 0..self.count {
-            let (block, lane) = (pair / LANES, pair % LANES);
-            let [a, b] = names(self.blocks[block].members.map(|end| end[lane]));
+        let pairs: Vec<_> = self.pairs().collect();
+        for (block, lane, places) in pairs {
+            let [a, b] = names(places);
             if let Some(displacement) = memories.of(a.min(b), a.max(b)) {
                 let turned = if a < b { displacement } else { -displacement };
                 self.histories[block].set(lane, turned);
@@ -172,5 +199,27 @@ impl Memories {
             .iter()
             .find(|(other, _)| *other == b);
         found.map(|(_, displacement)| *displacement)
+    }
+}
+
+fn standing(grains: &Grains, period: Period, [i, j]: [u32; 2]) -> Standing {
+    let (i, j) = (i as usize, j as usize);
+    if grains.stays(i) && grains.stays(j) {
+        return Standing::Dormant;
+    }
+    let (a, b) = (&grains.motion[i].0, &grains.motion[j].0);
+    let squared: f64 = (0..3)
+        .map(|axis| {
+            let mut apart = (a[axis] - b[axis]).abs();
+            if period[axis] > 0.0 {
+                apart = apart.min(period[axis] - apart);
+            }
+            apart * apart
+        })
+        .sum();
+    if squared < (a[3] + b[3]).powi(2) {
+        Standing::Touching
+    } else {
+        Standing::Apart
     }
 }

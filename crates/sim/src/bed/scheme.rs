@@ -123,7 +123,8 @@ impl<I: Integrator> Scheme<I> {
             bed.renew_lists(fastest);
             self.memory.keep(bed);
             self.memory.listed.clone_from(&self.bodies.position);
-        } else if let Some(porosity) = &mut bed.porosity {
+        }
+        if let Some(porosity) = &mut bed.porosity {
             porosity.follow(&mut bed.grains, &bed.surroundings, fastest * dt, dt);
         }
     }

@@ -61,8 +61,7 @@ impl Porosity {
         }
     }
 
-    /// Says what the grains see now. The order of the grains must not change between two calls without
-    /// one of this.
+    /// Says what the grains see now.
     pub fn refresh(&mut self, grains: &mut Grains, surroundings: &Surroundings) {
         (self.way, self.time) = (0.0, 0.0);
         self.refreshes += 1;

@@ -1,7 +1,7 @@
 //! Who touches whom, and whether action equals reaction.
 
 use crate::math::Vec3;
-use crate::neighbours::{LANES, in_widest};
+use crate::neighbours::in_widest;
 
 use super::Bed;
 use super::contacts::PairSweep;
@@ -46,9 +46,9 @@ impl Bed {
         in_widest(PairSweep {
             interaction: &self.interaction,
             grains: &self.grains,
-            pairs: &mut pairs,
+            pairs: pairs.whole(),
             elapsed: 0.0,
-            forces: &mut forces,
+            sink: &mut forces[..],
         });
         let (mut sum, mut sizes) = (Vec3::zeros(), 0.0);
         for force in &forces[..self.grains.len()] {
@@ -78,5 +78,5 @@ impl Bed {
 }
 
 fn members(list: &PairList) -> impl Iterator<Item = [u32; 2]> + '_ {
-    (0..list.count).map(|pair| list.blocks[pair / LANES].members.map(|end| end[pair % LANES]))
+    list.pairs().map(|(.., pair)| pair)
 }

@@ -2,11 +2,11 @@
 
 use crate::contact::{Couple, Meeting, Motion, Touch};
 use crate::math::{Vec3, Vector};
-use crate::neighbours::{LANES, Record, Wide, WideWork};
+use crate::neighbours::{Record, Wide, WideWork};
 
 use super::contacts::{Interaction, add, effort, remember, remembered};
 use super::grains::Grains;
-use super::pairs::{History, PairList};
+use super::pairs::{History, PairList, Standing};
 
 /// A plane that grains stay on one side of.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,12 +58,18 @@ impl Walls {
         for grain in 0..grains.moving {
             for wall in 0..self.walls.len() {
                 if self.gap(grains, grain, wall) < reach {
-                    pairs.push((grain as u32, wall as u32));
+                    pairs.push([grain as u32, wall as u32]);
                 }
             }
         }
-        let touching = |grain: u32, wall: u32| self.gap(grains, grain as usize, wall as usize) < 0.0;
-        self.list = PairList::new(pairs, touching, [grains.len() as u32, 0]);
+        let standing = |[grain, wall]: [u32; 2]| {
+            if self.gap(grains, grain as usize, wall as usize) < 0.0 {
+                Standing::Touching
+            } else {
+                Standing::Apart
+            }
+        };
+        self.list = PairList::new(pairs.into_iter(), standing, [grains.len() as u32, 0]);
         self.list.recall(|places| names(grains, places), memories);
     }
 
@@ -157,8 +163,8 @@ impl WideWork for WallSweep<'_> {
                 force = force - normal * attraction.to_wall(&meeting, a[3]);
             }
             let efforts = effort(force, torque);
-            for lane in 0..LANES {
-                add(&mut self.forces[first[lane] as usize], &efforts[lane]);
+            for (grain, effort) in first.iter().zip(&efforts) {
+                add(&mut self.forces[*grain as usize], effort);
             }
         }
         deepest.lanes().into_iter().fold(0.0, f64::max)

@@ -53,12 +53,12 @@ pub fn visit_near_pairs(
     let levels = Levels::new(spheres);
     for (level, &largest) in levels.largest.iter().enumerate() {
         let grid = Grid::new(&near, levels.members(level), 2.0 * largest + reach);
-        for i in 0..spheres.len() {
+        for (i, sphere) in spheres.iter().enumerate() {
             let own = levels.of[i] as usize;
             if own < level {
                 continue;
             }
-            grid.visit_around(&spheres[i].0, |j| {
+            grid.visit_around(&sphere.0, |j| {
                 let j = j as usize;
                 let once = own > level || j > i;
                 if once && (i < moving || j < moving) {

@@ -196,9 +196,9 @@ pub fn profile(scene: &Sedimentation, bed: &Bed) -> [Vec<f64>; 2] {
         let (z, radius) = (grains.position(grain).z, grains.radius(grain));
         let first = ((z - radius) / spacing).floor().max(0.0) as usize;
         let last = (((z + radius) / spacing).ceil().max(0.0) as usize).min(count);
-        for slice in first..last {
+        for (slice, solids) in solids.iter_mut().enumerate().take(last).skip(first) {
             let low = slice as f64 * spacing;
-            solids[slice] += sphere_volume_between(z, radius, low, low + spacing);
+            *solids += sphere_volume_between(z, radius, low, low + spacing);
         }
     }
     [

@@ -56,14 +56,16 @@ pub fn start(scene: &Sedimentation) -> Result<Bed, Fault> {
         Detection::Cells => Listing::EveryStep(Search::Grid),
         Detection::BruteForce => Listing::EveryStep(Search::BruteForce),
     };
-    Ok(Bed::new(
+    let bed = Bed::new(
         grains,
         &walls(scene),
         interaction(scene),
         surroundings,
         listing,
         porosity(scene),
-    ))
+    )
+    .with_threads(scene.threads as usize);
+    Ok(if scene.sleeping { bed.with_sleeping() } else { bed })
 }
 
 /// Sizes and classes of all moving grains; sizes of a spread class are drawn in turn.

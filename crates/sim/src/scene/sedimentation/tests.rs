@@ -385,3 +385,81 @@ fn cohesive_grains_of_any_number_settle_between_periodic_sides() {
         assert!(settled.is_some_and(|one| one.value > 0.9), "{settled:?}");
     }
 }
+
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    let with_threads = |threads| {
+        let mut scene = box_of_grains();
+        scene.classes[0].number = 400;
+        scene.container.height = 4e-3;
+        scene.fluid = StillFluid::Column(WATER);
+        scene.duration = 0.05;
+        scene.threads = threads;
+        let outcome = run(&Scene::Sedimentation(scene), &Control::SILENT).expect("a finished run");
+        // In words: what is not measured yet is no number and equals nothing.
+        format!("{outcome:?}")
+    };
+    let one = with_threads(1);
+    assert!(with_threads(3) == one);
+    assert!(with_threads(8) == one);
+}
+
+#[test]
+fn all_ways_to_find_pairs_lead_to_the_same_bed() {
+    let with = |detection| {
+        let mut scene = box_of_grains();
+        scene.classes[0].number = 60;
+        scene.container.height = 3e-3;
+        scene.duration = 0.03;
+        scene.detection = detection;
+        let outcome = run(&Scene::Sedimentation(scene), &Control::SILENT).expect("a finished run");
+        let height = outcome
+            .scalars
+            .iter()
+            .find(|scalar| scalar.name == "centre_of_mass");
+        height.expect("a centre of mass").value
+    };
+    let listed = with(Detection::List { skin: None });
+    for other in [
+        Detection::List { skin: Some(0.5) },
+        Detection::Cells,
+        Detection::BruteForce,
+    ] {
+        let height = with(other);
+        assert!(
+            (height / listed - 1.0).abs() < 1e-9,
+            "{height} for {listed} with {other:?}"
+        );
+    }
+}
+
+#[test]
+fn sleepers_leave_the_bed_as_it_is_and_most_of_the_work_undone() {
+    let with = |sleeping| {
+        let mut scene = box_of_grains();
+        scene.classes[0].number = 150;
+        scene.container.width = 1.5e-3;
+        scene.container.depth = 1.5e-3;
+        scene.container.height = 4e-3;
+        scene.duration = 0.6;
+        scene.sleeping = sleeping;
+        let outcome = run(&Scene::Sedimentation(scene), &Control::SILENT).expect("a finished run");
+        let scalar = |name| {
+            outcome
+                .scalars
+                .iter()
+                .find(|scalar| scalar.name == name)
+                .map(|scalar| scalar.value)
+        };
+        let (porosity, share) = (scalar("porosity"), scalar("settled_share"));
+        (
+            porosity.expect("a porosity"),
+            share.expect("a share"),
+            outcome.counters.grain_pairs,
+        )
+    };
+    let ((awake, settled, all), (asleep, settled_too, few)) = (with(false), with(true));
+    assert_eq!((settled, settled_too), (1.0, 1.0));
+    assert!((asleep - awake).abs() < 0.02, "{asleep} for {awake}");
+    assert!(few < all * 2 / 3, "{few} of {all}");
+}
