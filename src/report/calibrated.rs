@@ -38,13 +38,26 @@ fn row(study: &Study, input: &Calibrated) -> CalibratedRow {
     CalibratedRow {
         path: format!("{scene}.{fields}"),
         value: match &input.value {
-            AxisValue::Number(number) => format::quantity(*number, &input.unit),
+            AxisValue::Number(number) => number_with_unit(*number, &input.unit),
             other => other.to_string(),
         },
         fitted: format!("`{}` to `{}`{meaning}", input.of, input.against),
         source,
         on: points(study, input),
     }
+}
+
+/// `6 mm`; a number too small or too large for the usual units in SI units.
+fn number_with_unit(number: f64, unit: &str) -> String {
+    let readable = format::readable(unit, number);
+    let scaled = number * readable.factor;
+    let (number, label) = match (1e-3..1e6).contains(&scaled.abs()) {
+        true => (scaled, readable.label),
+        false => (number, format::pretty_unit(unit)),
+    };
+    format!("{} {label}", format::number(number))
+        .trim_end()
+        .to_owned()
 }
 
 /// `periodic; fluid density 500, 2403.1 kg/m³`

@@ -493,7 +493,7 @@ fn calibrated_inputs_are_named_with_the_points_they_were_fitted_on() {
     let text = std::fs::read_to_string(folder.path().join("report.md")).unwrap();
     for text in [page, text] {
         assert!(text.contains("Calibrated inputs") && text.contains("scenes.sphere.column.height"));
-        assert!(text.contains("6.000 mm") && text.contains("sphere; width 4 mm"));
+        assert!(text.contains("6 mm") && text.contains("sphere; width 4 mm"));
     }
 }
 
