@@ -33,6 +33,7 @@ pub fn study() -> Study {
             scenes: vec!["fast".into(), "slow".into()],
         }],
         seeds: vec![1],
+        calibrated: Vec::new(),
         observe: vec!["limit".into()],
         expect: Vec::new(),
         figures: Vec::new(),

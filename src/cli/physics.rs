@@ -71,6 +71,18 @@ pub fn explain(study: &Study, paint: Paint) -> String {
             axis.scenes.join(", ")
         );
     }
+    for input in &study.calibrated {
+        let path = input.path.get(1..).unwrap_or_default().join(".");
+        let _ = writeln!(
+            text,
+            "calibrated {path} = {}{}: `{}` to `{}`  (in {})",
+            show(&input.value),
+            unit(&input.unit),
+            input.of,
+            input.against,
+            input.scene
+        );
+    }
     for scene in scenes(study, &points) {
         scene.heading(&mut text, paint);
         scene.equations(&mut text, paint);

@@ -81,6 +81,7 @@ fn study(expect: Vec<Expectation>) -> Study {
         scenes: vec!["a".to_string(), "b".to_string()],
         axes: Vec::<Axis>::new(),
         seeds: vec![1],
+        calibrated: Vec::new(),
         observe: Vec::new(),
         expect,
         figures: Vec::new(),

@@ -7,6 +7,7 @@ use crate::store::model::Run;
 use crate::study::model::{Figure, Study};
 
 mod axis;
+mod calibrated;
 mod canvas;
 mod colour_map;
 mod facts;

@@ -5,6 +5,7 @@ use minijinja::value::Serde;
 use minijinja::{Environment, Value, context};
 use serde::Serialize;
 
+use super::calibrated::{self, CalibratedRow};
 use super::facts::{self, Facts};
 use super::figure::{Plate, Table};
 use super::table::{self, Effort};
@@ -24,6 +25,7 @@ pub struct Page {
     overall: Overall,
     counts: Counts,
     facts: Facts,
+    calibrated: Vec<CalibratedRow>,
     verdicts: Vec<verdict_row::VerdictRow>,
     failures: Vec<Failure>,
     figures: Vec<FigureBlock>,
@@ -95,6 +97,7 @@ impl Page {
             overall: overall(counts, exploratory),
             counts,
             facts: facts::of(runs),
+            calibrated: calibrated::rows(study),
             verdicts: verdicts
                 .iter()
                 .map(|verdict| verdict_row::verdict_row(study, verdict))

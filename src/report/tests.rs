@@ -166,6 +166,7 @@ fn study() -> Study {
             axis("width", "m", &SPACINGS),
         ],
         seeds: vec![1],
+        calibrated: Vec::new(),
         observe: vec!["terminal_velocity".into()],
         expect: vec![Expectation {
             id: "error-1".into(),
@@ -466,6 +467,34 @@ fn a_study_without_expectations_or_runs_is_shown_as_such() {
     };
     let page = written(&exploratory, &[], &[], folder.path());
     assert!(page.contains("Exploratory") && page.contains("no completed run belongs to this figure"));
+}
+
+#[test]
+fn calibrated_inputs_are_named_with_the_points_they_were_fitted_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let plain = written(&study(), &runs(), &verdicts(), folder.path());
+    assert!(!plain.contains("Calibrated inputs"));
+    let fitted = Study {
+        calibrated: vec![Calibrated {
+            scene: "sphere".into(),
+            path: ["single_sphere", "column", "height"].map(String::from).to_vec(),
+            value: AxisValue::Number(0.006),
+            unit: "m".into(),
+            of: "terminal_velocity".into(),
+            against: "force_balance".into(),
+            on: Selection {
+                scenes: vec!["sphere".into()],
+                axes: vec![("width".into(), vec![AxisValue::Number(0.004)])],
+            },
+        }],
+        ..study()
+    };
+    let page = written(&fitted, &runs(), &verdicts(), folder.path());
+    let text = std::fs::read_to_string(folder.path().join("report.md")).unwrap();
+    for text in [page, text] {
+        assert!(text.contains("Calibrated inputs") && text.contains("scenes.sphere.column.height"));
+        assert!(text.contains("6 mm") && text.contains("sphere; width 4 mm"));
+    }
 }
 
 #[test]

@@ -90,6 +90,7 @@ fn build(path: &Path, root: &Node, problems: &mut Problems) -> Option<Study> {
     };
     let expect = statements::expectations(root, &context, problems);
     let figures = statements::figures(root, &context, problems);
+    let calibrated = statements::calibrated(root, &written, &context, problems);
     let observe = statements::observe(root, &context, &expect, &figures, problems);
     Some(Study {
         name: path
@@ -105,6 +106,7 @@ fn build(path: &Path, root: &Node, problems: &mut Problems) -> Option<Study> {
         scenes: written.iter().map(|scene| scene.name.clone()).collect(),
         axes: axes.into_iter().map(|axis| axis.axis).collect(),
         seeds,
+        calibrated,
         observe,
         expect,
         figures,

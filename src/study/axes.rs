@@ -125,7 +125,7 @@ fn one(
     })
 }
 
-fn unit(values: &[AxisValue], dimension: Option<Dimension>) -> String {
+pub fn unit(values: &[AxisValue], dimension: Option<Dimension>) -> String {
     match (dimension, values.first()) {
         (Some(dimension), _) => dimension.unit(),
         (None, Some(AxisValue::Number(_))) => "1".to_owned(),
@@ -162,9 +162,9 @@ pub fn is_name(text: &str) -> bool {
             .all(|letter| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == '_')
 }
 
-type Bindings<'a> = Vec<(String, Vec<String>, &'a Schema)>;
+pub type Bindings<'a> = Vec<(String, Vec<String>, &'a Schema)>;
 
-fn bind_everywhere<'a>(
+pub fn bind_everywhere<'a>(
     text: &str,
     scenes: &[WrittenScene],
     shapes: &'a Shapes,

@@ -17,6 +17,8 @@ pub struct Study {
     pub scenes: Vec<String>,
     pub axes: Vec<Axis>,
     pub seeds: Vec<u64>,
+    /// Inputs that were fitted; empty where none was.
+    pub calibrated: Vec<Calibrated>,
     /// Observables to keep, by name.
     pub observe: Vec<String>,
     pub expect: Vec<Expectation>,
@@ -34,6 +36,24 @@ pub struct Axis {
     pub values: Vec<AxisValue>,
     /// Names of the scenes in which the axis binds.
     pub scenes: Vec<String>,
+}
+
+/// An input that was fitted until a scalar met a reference at some of the points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Calibrated {
+    /// Name of the scene it belongs to.
+    pub scene: String,
+    /// Where it stands in that scene, from the kind of the scene downwards.
+    pub path: Vec<String>,
+    pub value: AxisValue,
+    /// SI unit, `1` when dimensionless, empty for words.
+    pub unit: String,
+    /// The scalar that was fitted.
+    pub of: String,
+    /// The reference that it had to meet.
+    pub against: String,
+    /// The points that it was fitted on.
+    pub on: Selection,
 }
 
 /// A value on an axis, in SI units.

@@ -60,6 +60,7 @@ pub fn study(scenes: Vec<Rehearsal>) -> Study {
             scenes: vec!["scene".into()],
         }],
         seeds: vec![1],
+        calibrated: Vec::new(),
         observe: vec!["limit".into(), "value".into()],
         expect: Vec::new(),
         figures: Vec::new(),

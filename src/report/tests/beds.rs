@@ -152,6 +152,7 @@ fn study(path: &str) -> Study {
             axis("viscosity", "Pa s", &VISCOSITIES),
         ],
         seeds: (1..=SEEDS).collect(),
+        calibrated: Vec::new(),
         observe: Vec::new(),
         expect: Vec::new(),
         figures: Vec::new(),

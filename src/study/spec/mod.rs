@@ -14,7 +14,7 @@ use serde::Deserialize;
 
 use quantity::{Anything, OneOrMore, Scalar};
 use scene::SceneSpec;
-use statement::{ExpectationSpec, FigureSpec};
+use statement::{CalibratedSpec, ExpectationSpec, FigureSpec};
 
 /// A study: a question, the scenes it is asked of, what varies, what is observed and expected.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -35,6 +35,9 @@ pub struct StudySpec {
     /// A number N for the seeds 1 to N, or a list of seeds.
     #[serde(default = "one_seed")]
     pub seeds: OneOrMore<u64>,
+    /// Inputs that were fitted to some of the points; the others are predictions.
+    #[serde(default)]
+    pub calibrated: Vec<CalibratedSpec>,
     /// Observables to keep.
     #[serde(default)]
     pub observe: Vec<String>,

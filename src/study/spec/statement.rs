@@ -8,6 +8,20 @@ use serde::Deserialize;
 use super::Where;
 use super::quantity::{AnyQuantity, Fraction, OneOrMore, Scalar, Time};
 
+/// An input that was fitted to some of the points.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct CalibratedSpec {
+    /// Where its value stands: `scene.cohesion.…`, or `scenes.NAME.cohesion.…` in one scene.
+    pub path: String,
+    /// The scalar that it was fitted to.
+    pub of: String,
+    /// Name of the reference that the scalar had to meet.
+    pub against: String,
+    /// The points that it was fitted on.
+    #[expect(dead_code, reason = "read from the tree, where values have positions")]
+    pub on: Where,
+}
+
 /// A statement that is expected to hold: its kind with its fields.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]

@@ -2,6 +2,7 @@
 
 mod band;
 mod beside;
+mod calibrated;
 mod comparison;
 mod named;
 mod selection;
@@ -11,6 +12,7 @@ use std::collections::BTreeMap;
 use kynch_sim::scene::{Observable, ObservableKind};
 use serde_json::Value as Schema;
 
+pub use calibrated::calibrated;
 pub use selection::admitted;
 
 use super::axes::WrittenAxis;

@@ -369,6 +369,24 @@ fn names_are_distinct_and_fit_the_dimensions() {
 }
 
 #[test]
+fn cohesive_grains_of_any_number_settle_between_periodic_sides() {
+    // Lanes are left over in the blocks of eight grains and of eight pairs.
+    for number in [11, 12] {
+        let mut scene = box_of_grains();
+        scene.classes[0].number = number;
+        scene.container.width = 1e-3;
+        scene.container.depth = 1e-3;
+        scene.container.height = 2e-3;
+        scene.container.sides = Sides::Periodic;
+        scene.duration = 0.1;
+        scene.snapshots = 0;
+        let outcome = run(&Scene::Sedimentation(scene), &Control::SILENT).expect("a bed");
+        let settled = outcome.scalars.iter().find(|one| one.name == "settled_share");
+        assert!(settled.is_some_and(|one| one.value > 0.9), "{settled:?}");
+    }
+}
+
+#[test]
 fn any_number_of_threads_gives_the_same_bits() {
     let with_threads = |threads| {
         let mut scene = box_of_grains();
