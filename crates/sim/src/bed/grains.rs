@@ -64,10 +64,9 @@ impl Grains {
             grains.number.push(number as u32);
             grains.class.push(grain.class);
         }
-        // Empty lanes of a list point at two more, which never touch anything nor each other: they lie
-        // above each other, as beds repeat themselves sideways only.
-        for z in [0.0, 1.0] {
-            grains.motion.push(Record([0.0, 0.0, z, 0.0, 0.0, 0.0, 0.0, 0.0]));
+        // Empty lanes of a list point at two more, which never touch anything nor each other.
+        for x in [0.0, 1.0] {
+            grains.motion.push(Record([x, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]));
             grains.spin.push(Record([0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]));
         }
         grains
