@@ -2,6 +2,7 @@
 
 mod collision;
 pub mod drag_law;
+pub mod first_settling_speed;
 pub mod force_balance;
 pub mod grain;
 pub mod hertz_collision;
@@ -69,6 +70,7 @@ fn solutions() -> Vec<Solution> {
         stokes_start_up::solution(),
         terminal_velocity::solution(),
         force_balance::solution(),
+        first_settling_speed::solution(),
         smoothed_balance::solution(),
         collision::restitution(),
         collision::contact_time(),

@@ -222,6 +222,9 @@ pub fn power_of_ten(exponent: i32) -> String {
 
 /// Seconds as people say them.
 pub fn duration(seconds: f64) -> String {
+    if seconds >= 7200.0 {
+        return format!("{:.1} h", seconds / 3600.0);
+    }
     if seconds >= 120.0 {
         return format!("{:.1} min", seconds / 60.0);
     }

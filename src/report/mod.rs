@@ -9,6 +9,7 @@ use crate::study::model::{Figure, Study};
 mod axis;
 mod canvas;
 mod colour_map;
+mod cost;
 mod facts;
 mod figure;
 pub mod format;

@@ -179,6 +179,7 @@ fn study() -> Study {
             informative: None,
         }],
         figures: figures(),
+        published_time: None,
         plan: Plan::default(),
     }
 }

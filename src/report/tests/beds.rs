@@ -153,6 +153,7 @@ fn study(path: &str) -> Study {
         observe: Vec::new(),
         expect: Vec::new(),
         figures: Vec::new(),
+        published_time: None,
         plan: Plan::default(),
     }
 }
