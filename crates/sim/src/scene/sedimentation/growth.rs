@@ -6,6 +6,9 @@ const END: f64 = 0.1;
 const REACHED: f64 = 0.02;
 /// Between these shares of the time to the plateau the growth is compared with a straight line [-].
 const GROWING: [f64; 2] = [0.125, 0.875];
+/// Share of the time to the plateau over which the thickness is averaged for that: its top is that of
+/// one grain, which counts as unsettled whenever another one hits it [-].
+const SMOOTHED: f64 = 0.125;
 
 /// Growth of a bed; NaN throughout where there is none.
 #[derive(Clone, Copy, Debug)]
@@ -13,7 +16,8 @@ pub struct Growth {
     /// Time from which on the thickness stays within 2 % of its mean over the last tenth of the run [s];
     /// the end of the run where it never does.
     pub plateau_time: f64,
-    /// r² of the straight line through the thickness from 1/8 to 7/8 of that time [-].
+    /// r² of the straight line through the thickness, averaged over 1/8 of that time, from 1/8 to 7/8
+    /// of it [-].
     pub linearity: f64,
     /// Slope of the straight line through the last tenth of the run [m/s].
     pub final_rate: f64,
@@ -29,7 +33,7 @@ impl Growth {
         };
         let end = rows.last().map_or(0.0, |row| row.0);
         let last = between((1.0 - END) * end, end);
-        let thickness = last.iter().map(|row| row.1).sum::<f64>() / last.len() as f64;
+        let thickness = mean(&last);
         if thickness.is_nan() || thickness <= 0.0 {
             return Growth {
                 plateau_time: f64::NAN,
@@ -43,12 +47,22 @@ impl Growth {
         let reached = outside.map_or(0, |row| (row + 1).min(rows.len() - 1));
         let plateau_time = rows[reached].0;
         let [from, to] = GROWING.map(|share| share * plateau_time);
+        let reach = 0.5 * SMOOTHED * plateau_time;
+        let smoothed: Vec<(f64, f64)> = between(from, to)
+            .iter()
+            .map(|row| (row.0, mean(&between(row.0 - reach, row.0 + reach))))
+            .collect();
         Growth {
             plateau_time,
-            linearity: line(&between(from, to)).1,
+            linearity: line(&smoothed).1,
             final_rate: line(&last).0,
         }
     }
+}
+
+/// Mean of the second numbers; NaN for none.
+fn mean(points: &[(f64, f64)]) -> f64 {
+    points.iter().map(|point| point.1).sum::<f64>() / points.len() as f64
 }
 
 /// Slope of the straight line of least squares, and its r²; NaN for fewer than three points.
@@ -57,8 +71,8 @@ fn line(points: &[(f64, f64)]) -> (f64, f64) {
         return (f64::NAN, f64::NAN);
     }
     let count = points.len() as f64;
-    let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / count;
-    let (x, y) = (mean(|point| point.0), mean(|point| point.1));
+    let average = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / count;
+    let (x, y) = (average(|point| point.0), average(|point| point.1));
     let sum = |of: &dyn Fn(f64, f64) -> f64| {
         points
             .iter()
@@ -98,6 +112,25 @@ mod tests {
         let late = bed(0.4, |share| share.powi(6));
         assert!(slowing.linearity < 0.97, "{slowing:?}");
         assert!(late.linearity < 0.8, "{late:?}");
+    }
+
+    #[test]
+    fn a_top_that_flickers_does_not_bend_the_growth() {
+        let flickering = |share: f64| {
+            share
+                - if (share * 1e4) as u32 % 3 == 0 {
+                    0.2 * share
+                } else {
+                    0.0
+                }
+        };
+        let times: Vec<f64> = (0..=200).map(|row| f64::from(row) * 5e-3).collect();
+        let thicknesses: Vec<f64> = times
+            .iter()
+            .map(|time| if *time < 0.4 { flickering(time / 0.4) } else { 1.0 })
+            .collect();
+        let growth = Growth::of(&times, &thicknesses);
+        assert!(growth.linearity > 0.98, "{growth:?}");
     }
 
     #[test]

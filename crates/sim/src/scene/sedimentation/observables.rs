@@ -30,7 +30,7 @@ const ALWAYS: &[Row] = &[
     ("permeability", "m²", Scalar, "permeability of the bed after Kozeny and Carman, from its porosity"),
     ("settling_time", "s", Scalar, "time at which the last grain has settled"),
     ("plateau_time", "s", Scalar, "time from which on the thickness stays within 2 % of its mean over the last tenth of the run"),
-    ("growth_linearity", "1", Scalar, "r² of the straight line through the thickness from 1/8 to 7/8 of the time to its plateau"),
+    ("growth_linearity", "1", Scalar, "r² of the straight line through the smoothed thickness from 1/8 to 7/8 of the time to its plateau"),
     ("final_growth_rate", "m/s", Scalar, "slope of the straight line through the thickness over the last tenth of the run"),
     ("settled_share", "1", Scalar, "share of the grains that have settled"),
     ("coordination", "1", Scalar, "mean number of contacts of a settled grain"),
