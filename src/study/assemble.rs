@@ -254,7 +254,7 @@ fn published_time(root: &Node, problems: &mut Problems) -> Option<PublishedTime>
         _ => return None,
     };
     if !(seconds > 0.0 && seconds.is_finite()) {
-        let message = format!("`is` is {seconds} s, it must be above 0");
+        let message = format!("`published_time` is {seconds} s, it must be above 0");
         problems.add(&time.span, "published_time.is", message, "write a positive time");
     }
     Some(PublishedTime {

@@ -42,6 +42,7 @@ pub const REFERENCES: &[(&str, ObservableKind)] = &[
     ("stokes_start_up", Series),
     ("terminal_velocity", Scalar),
     ("force_balance", Scalar),
+    ("first_settling_speed", Scalar),
     ("smoothed_balance", Scalar),
     ("collision_restitution", Scalar),
     ("collision_contact_time", Scalar),
