@@ -65,6 +65,8 @@ pub fn readable(unit: &str, largest: f64) -> Unit {
     let fitting = allowed.iter().find(|(size, _)| largest >= *size * 0.999_999);
     let best = fitting.or(allowed.last());
     match best {
+        // 10⁻²⁰ J, not 10⁻⁸ pJ: where no prefix reaches, the unit itself says more.
+        Some((size, _)) if largest < 1e-3 * size => plain,
         Some((size, prefix)) => Unit {
             factor: 1.0 / size,
             label: format!("{prefix}{}", pretty_unit(unit)),
@@ -300,6 +302,8 @@ mod tests {
             }
         );
         assert_eq!(readable("s", 0.062).label, "ms");
+        assert_eq!(readable("J", 6.5e-20).label, "J");
+        assert_eq!(readable("J", 6.5e-13).label, "pJ");
         assert_eq!(readable("m", 5e-5).label, "µm");
         assert_eq!(readable("m", 4000.0).label, "m");
         assert_eq!(readable("Pa", 58_000.0).label, "kPa");
