@@ -44,6 +44,9 @@ const PREFIXES: [(f64, &str); 7] = [
     (1e-6, "µ"),
     (1e-9, "n"),
     (1e-12, "p"),
+    (1e-15, "f"),
+    (1e-18, "a"),
+    (1e-21, "z"),
 ];
 
 /// The readable form of an SI unit for numbers up to `largest`.
@@ -65,8 +68,6 @@ pub fn readable(unit: &str, largest: f64) -> Unit {
     let fitting = allowed.iter().find(|(size, _)| largest >= *size * 0.999_999);
     let best = fitting.or(allowed.last());
     match best {
-        // 10⁻²⁰ J, not 10⁻⁸ pJ: where no prefix reaches, the unit itself says more.
-        Some((size, _)) if largest < 1e-3 * size => plain,
         Some((size, prefix)) => Unit {
             factor: 1.0 / size,
             label: format!("{prefix}{}", pretty_unit(unit)),
@@ -302,8 +303,7 @@ mod tests {
             }
         );
         assert_eq!(readable("s", 0.062).label, "ms");
-        assert_eq!(readable("J", 6.5e-20).label, "J");
-        assert_eq!(readable("J", 6.5e-13).label, "pJ");
+        assert_eq!(readable("J", 6.5e-20).label, "zJ");
         assert_eq!(readable("m", 5e-5).label, "µm");
         assert_eq!(readable("m", 4000.0).label, "m");
         assert_eq!(readable("Pa", 58_000.0).label, "kPa");
