@@ -36,7 +36,7 @@ impl Unit {
 
 /// Units that take a prefix on their first letter. A kilogram has one already.
 const PREFIXED: [&str; 10] = ["m", "s", "m/s", "m/s2", "N", "Pa", "Pa s", "J", "W", "N/m"];
-const PREFIXES: [(f64, &str); 7] = [
+const PREFIXES: [(f64, &str); 10] = [
     (1e6, "M"),
     (1e3, "k"),
     (1.0, ""),
