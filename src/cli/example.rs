@@ -37,6 +37,7 @@ pub fn study() -> Study {
         observe: vec!["limit".into()],
         expect: Vec::new(),
         figures: Vec::new(),
+        published_time: None,
         plan: Plan {
             points: points.collect(),
         },

@@ -85,6 +85,7 @@ fn study(expect: Vec<Expectation>) -> Study {
         observe: Vec::new(),
         expect,
         figures: Vec::new(),
+        published_time: None,
         plan: Plan::default(),
     }
 }

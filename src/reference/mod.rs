@@ -3,6 +3,7 @@
 mod collision;
 pub mod data;
 pub mod drag_law;
+pub mod first_settling_speed;
 pub mod force_balance;
 pub mod grain;
 pub mod hertz_collision;
@@ -80,6 +81,7 @@ fn solutions() -> Vec<Solution> {
         stokes_start_up::solution(),
         terminal_velocity::solution(),
         force_balance::solution(),
+        first_settling_speed::solution(),
         smoothed_balance::solution(),
         collision::restitution(),
         collision::contact_time(),

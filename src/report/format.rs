@@ -36,7 +36,7 @@ impl Unit {
 
 /// Units that take a prefix on their first letter. A kilogram has one already.
 const PREFIXED: [&str; 10] = ["m", "s", "m/s", "m/s2", "N", "Pa", "Pa s", "J", "W", "N/m"];
-const PREFIXES: [(f64, &str); 7] = [
+const PREFIXES: [(f64, &str); 10] = [
     (1e6, "M"),
     (1e3, "k"),
     (1.0, ""),
@@ -44,6 +44,9 @@ const PREFIXES: [(f64, &str); 7] = [
     (1e-6, "µ"),
     (1e-9, "n"),
     (1e-12, "p"),
+    (1e-15, "f"),
+    (1e-18, "a"),
+    (1e-21, "z"),
 ];
 
 /// The readable form of an SI unit for numbers up to `largest`.
@@ -222,6 +225,9 @@ pub fn power_of_ten(exponent: i32) -> String {
 
 /// Seconds as people say them.
 pub fn duration(seconds: f64) -> String {
+    if seconds >= 7200.0 {
+        return format!("{:.1} h", seconds / 3600.0);
+    }
     if seconds >= 120.0 {
         return format!("{:.1} min", seconds / 60.0);
     }
@@ -297,6 +303,7 @@ mod tests {
             }
         );
         assert_eq!(readable("s", 0.062).label, "ms");
+        assert_eq!(readable("J", 6.5e-20).label, "zJ");
         assert_eq!(readable("m", 5e-5).label, "µm");
         assert_eq!(readable("m", 4000.0).label, "m");
         assert_eq!(readable("Pa", 58_000.0).label, "kPa");

@@ -10,6 +10,7 @@ mod axis;
 mod calibrated;
 mod canvas;
 mod colour_map;
+mod cost;
 mod facts;
 mod figure;
 pub mod format;

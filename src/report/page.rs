@@ -6,6 +6,7 @@ use minijinja::{Environment, Value, context};
 use serde::Serialize;
 
 use super::calibrated::{self, CalibratedRow};
+use super::cost::{self, Cost};
 use super::facts::{self, Facts};
 use super::figure::{Plate, Table};
 use super::table::{self, Effort};
@@ -29,6 +30,7 @@ pub struct Page {
     verdicts: Vec<verdict_row::VerdictRow>,
     failures: Vec<Failure>,
     figures: Vec<FigureBlock>,
+    cost: Option<Cost>,
     work_head: Vec<String>,
     work: Vec<Vec<String>>,
     points_head: Vec<String>,
@@ -107,6 +109,7 @@ impl Page {
                 .iter()
                 .map(|(figure, plate)| figure_block(study, figure, plate))
                 .collect(),
+            cost: cost::of(study, runs),
             work_head: work_head(
                 &[
                     "scene",

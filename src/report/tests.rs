@@ -181,6 +181,7 @@ fn study() -> Study {
             informative: None,
         }],
         figures: figures(),
+        published_time: None,
         plan: Plan::default(),
     }
 }
@@ -495,6 +496,33 @@ fn calibrated_inputs_are_named_with_the_points_they_were_fitted_on() {
         assert!(text.contains("Calibrated inputs") && text.contains("scenes.sphere.column.height"));
         assert!(text.contains("6 mm") && text.contains("sphere; width 4 mm"));
     }
+}
+
+#[test]
+fn a_published_time_stands_beside_that_of_a_point() {
+    let folder = tempfile::tempdir().unwrap();
+    let timed = Study {
+        published_time: Some(PublishedTime {
+            seconds: 7.0 * 3600.0,
+            source: "a thesis".into(),
+        }),
+        ..study()
+    };
+    let mut runs = runs();
+    for (index, run) in runs.iter_mut().enumerate() {
+        run.timing.cpu = [4.0, 6.0][index % 2];
+        run.scene = SCENES[0].into();
+    }
+    runs.truncate(2);
+    let page = written(&timed, &runs, &verdicts(), folder.path());
+    let text = std::fs::read_to_string(folder.path().join("report.md")).unwrap();
+    for page in [&page, &text] {
+        for part in ["5.0 s", "6.0 s", "7.0 h", "5000 ×", "a thesis"] {
+            assert!(page.contains(part), "{part}");
+        }
+    }
+    let without = written(&study(), &runs, &verdicts(), folder.path());
+    assert!(!without.contains("7.0 h"));
 }
 
 #[test]

@@ -5,12 +5,13 @@ use std::ops::Range;
 use std::path::Path;
 
 use super::axes::{self, WrittenAxis, WrittenScene};
-use super::model::{AxisValue, Plan, Study, Work};
+use super::model::{AxisValue, Plan, PublishedTime, Study, Work};
 use super::nearest::advice;
 use super::plan::{self, Exclusion, Ingredients};
 use super::problem::{Problems, StudyError};
 use super::shape::{Place, Shapes};
 use super::statements::{self, Context};
+use super::units::{self, Dimension};
 use super::yaml::{self, Node, Value};
 
 const MOST_SEEDS: u64 = 10_000;
@@ -110,6 +111,7 @@ fn build(path: &Path, root: &Node, problems: &mut Problems) -> Option<Study> {
         observe,
         expect,
         figures,
+        published_time: published_time(root, problems),
         plan,
     })
 }
@@ -242,6 +244,25 @@ fn seeds(root: &Node, problems: &mut Problems) -> Option<Vec<u64>> {
         return None;
     }
     Some((1..=count).collect())
+}
+
+/// What a point took elsewhere, where that is given and sound.
+fn published_time(root: &Node, problems: &mut Problems) -> Option<PublishedTime> {
+    let node = root.get("published_time")?;
+    let time = node.get("is")?;
+    let seconds = match &time.value {
+        Value::Number(number) => *number,
+        Value::Text(text) => units::parse_as(text, Dimension::TIME).ok()?,
+        _ => return None,
+    };
+    if !(seconds > 0.0 && seconds.is_finite()) {
+        let message = format!("`published_time` is {seconds} s, it must be above 0");
+        problems.add(&time.span, "published_time.is", message, "write a positive time");
+    }
+    Some(PublishedTime {
+        seconds,
+        source: node.get("source").map(Node::shown_whole).unwrap_or_default(),
+    })
 }
 
 fn exclusions(

@@ -23,7 +23,17 @@ pub struct Study {
     pub observe: Vec<String>,
     pub expect: Vec<Expectation>,
     pub figures: Vec<Figure>,
+    pub published_time: Option<PublishedTime>,
     pub plan: Plan,
+}
+
+/// What one point took elsewhere.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PublishedTime {
+    /// [s]
+    pub seconds: f64,
+    /// Where it is printed, and what machine it was.
+    pub source: String,
 }
 
 /// A varied parameter.

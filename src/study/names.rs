@@ -48,6 +48,7 @@ const SOLUTIONS: &[(&str, ObservableKind)] = &[
     ("stokes_start_up", Series),
     ("terminal_velocity", Scalar),
     ("force_balance", Scalar),
+    ("first_settling_speed", Scalar),
     ("smoothed_balance", Scalar),
     ("collision_restitution", Scalar),
     ("collision_contact_time", Scalar),

@@ -64,6 +64,7 @@ pub fn study(scenes: Vec<Rehearsal>) -> Study {
         observe: vec!["limit".into(), "value".into()],
         expect: Vec::new(),
         figures: Vec::new(),
+        published_time: None,
         plan: Plan {
             points: points.collect(),
         },

@@ -156,6 +156,7 @@ fn study(path: &str) -> Study {
         observe: Vec::new(),
         expect: Vec::new(),
         figures: Vec::new(),
+        published_time: None,
         plan: Plan::default(),
     }
 }

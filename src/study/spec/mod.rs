@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use quantity::{Anything, OneOrMore, Scalar};
+use quantity::{Anything, OneOrMore, Scalar, Time};
 use scene::SceneSpec;
 use statement::{CalibratedSpec, ExpectationSpec, FigureSpec};
 
@@ -47,9 +47,24 @@ pub struct StudySpec {
     /// Figures to draw.
     #[serde(default)]
     pub figures: Vec<FigureSpec>,
+    /// What a point took elsewhere: shown beside the processor time of ours.
+    pub published_time: Option<PublishedTimeSpec>,
     /// Points to leave out: every name given must match.
     #[serde(default)]
     pub exclude: Vec<Where>,
+}
+
+/// What one point took elsewhere.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[expect(
+    dead_code,
+    reason = "gives the schema; values are read from the tree, with their positions"
+)]
+pub struct PublishedTimeSpec {
+    /// Time of one point.
+    pub is: Time,
+    /// Where it is printed, and what machine it was.
+    pub source: String,
 }
 
 /// Values admitted by name: `scene`, an axis, or a settings field.

@@ -161,7 +161,7 @@ pub enum CohesionSpec {
 
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 pub struct VanDerWaalsSpec {
-    /// Hamaker constant.
+    /// Hamaker constant; 0 leaves the attraction out.
     pub hamaker: Energy,
     /// Gap below which the attraction grows no more.
     #[serde(default = "one_nanometre")]

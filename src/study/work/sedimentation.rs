@@ -112,6 +112,8 @@ fn container(spec: &SedimentationSpec) -> Container {
 fn cohesion(spec: &CohesionSpec) -> Option<Cohesion> {
     match spec {
         CohesionSpec::None => None,
+        // The end of a row of constants: no attraction.
+        CohesionSpec::VanDerWaals(law) if law.hamaker.0 == 0.0 => None,
         CohesionSpec::VanDerWaals(law) => Some(Cohesion {
             hamaker: law.hamaker.0,
             smallest_gap: law.smallest_gap.0,

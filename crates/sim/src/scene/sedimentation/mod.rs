@@ -2,6 +2,8 @@
 
 mod check;
 mod describe;
+mod growth;
+mod interior;
 mod model;
 mod observables;
 mod observe;

@@ -1,6 +1,6 @@
 //! What a sedimentation scene can be asked for.
 
-use super::model::{Dimensions, Sedimentation};
+use super::model::{Dimensions, Sedimentation, Sides};
 use crate::scene::Observable;
 use crate::scene::ObservableKind::{self, Profile, Scalar, Series};
 
@@ -13,6 +13,13 @@ const PLANE: &[Row] = &[(
     "porosity of the bed's central slice by areas of discs",
 )];
 
+const BETWEEN_WALLS: &[Row] = &[(
+    "porosity_interior",
+    "1",
+    Scalar,
+    "porosity of the bed's central slice by exact volumes, one largest diameter away from the side walls",
+)];
+
 #[rustfmt::skip]
 const ALWAYS: &[Row] = &[
     ("porosity", "1", Scalar, "porosity of the bed's central slice by exact volumes"),
@@ -22,6 +29,9 @@ const ALWAYS: &[Row] = &[
     ("thickness", "m", Scalar, "thickness of the settled bed"),
     ("permeability", "m²", Scalar, "permeability of the bed after Kozeny and Carman, from its porosity"),
     ("settling_time", "s", Scalar, "time at which the last grain has settled"),
+    ("plateau_time", "s", Scalar, "time from which on the thickness stays within 2 % of its mean over the last tenth of the run"),
+    ("growth_linearity", "1", Scalar, "r² of the straight line through the smoothed thickness from 1/8 to 7/8 of the time to its plateau"),
+    ("final_growth_rate", "m/s", Scalar, "slope of the straight line through the thickness over the last tenth of the run"),
     ("settled_share", "1", Scalar, "share of the grains that have settled"),
     ("coordination", "1", Scalar, "mean number of contacts of a settled grain"),
     ("largest_overlap", "1", Scalar, "largest overlap in the run over the smaller diameter"),
@@ -45,9 +55,10 @@ const ALWAYS: &[Row] = &[
 ];
 
 pub fn observables(scene: &Sedimentation) -> Vec<Observable> {
-    let plane = match scene.dimensions {
-        Dimensions::Two => PLANE,
-        Dimensions::Three => &[],
+    let own = match (scene.dimensions, scene.container.sides) {
+        (Dimensions::Two, _) => PLANE,
+        (Dimensions::Three, Sides::Walls) => BETWEEN_WALLS,
+        (Dimensions::Three, Sides::Periodic) => &[],
     };
     // Without snapshots there is no table of them.
     let kept = |row: &&Row| scene.snapshots > 0 || row.0 != "snapshots";
@@ -57,5 +68,5 @@ pub fn observables(scene: &Sedimentation) -> Vec<Observable> {
         kind,
         meaning,
     };
-    plane.iter().chain(ALWAYS).filter(kept).map(observable).collect()
+    own.iter().chain(ALWAYS).filter(kept).map(observable).collect()
 }

@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::interior::Lines;
 use super::model::{Dimensions, Sedimentation};
 use crate::bed::Bed;
 use crate::coupling::permeability;
@@ -88,6 +89,8 @@ pub struct Measures {
     pub porosity: f64,
     pub porosity_half: f64,
     pub porosity_centre: f64,
+    /// Ends of the central slice [m].
+    pub slice: [f64; 2],
     /// By areas of discs [-]; two dimensions.
     pub area_porosity: f64,
     pub permeability: f64,
@@ -163,6 +166,7 @@ impl Measures {
         let porosity =
             |[from, to]: [f64; 2]| 1.0 - solid_volume_between(spheres(), from, to) / (area * (to - from));
         let slice = central(scene.central_slice);
+        self.slice = slice;
         self.porosity = porosity(slice);
         self.porosity_half = porosity(central(0.5));
         let inside = || spheres().filter(|(z, _)| *z >= slice[0] && *z < slice[1]);
@@ -180,6 +184,14 @@ impl Measures {
         };
         self.permeability = permeability::kozeny_carman(seen, 2.0 * cubes / squares);
     }
+}
+
+/// Porosity [-] between two heights [m], one largest diameter away from flat side walls.
+pub fn porosity_interior(scene: &Sedimentation, bed: &Bed, heights: [f64; 2]) -> f64 {
+    let grains = &bed.grains;
+    let lines = Lines::away_from_walls(scene.container.width, scene.depth(), scene.largest_diameter());
+    let spheres = (0..grains.moving).map(|grain| (grains.position(grain), grains.radius(grain)));
+    lines.porosity(spheres, heights)
 }
 
 /// Heights [m] and porosities [-] of thin slices from the floor to the top of the highest grain.

@@ -2,8 +2,9 @@
 
 use std::f64::consts::PI;
 
+use super::growth::Growth;
 use super::model::{Dimensions, Floor, Sedimentation, Sides, Until};
-use super::observe::{Measures, Settled, profile};
+use super::observe::{Measures, Settled, porosity_interior, profile};
 use super::start::start;
 use super::step::limits;
 use crate::bed::{Astray, Bed, Scheme};
@@ -345,6 +346,9 @@ impl<'a> Watch<'a> {
         let mut add = |name, unit, value| scalars.push(Scalar { name, unit, value });
         if self.scene.dimensions == Dimensions::Two {
             add("area_porosity", "1", last.area_porosity);
+        } else if self.scene.container.sides == Sides::Walls {
+            let interior = porosity_interior(self.scene, &self.bed, last.slice);
+            add("porosity_interior", "1", interior);
         }
         add("porosity", "1", last.porosity);
         add("porosity_half", "1", last.porosity_half);
@@ -353,6 +357,10 @@ impl<'a> Watch<'a> {
         add("thickness", "m", last.thickness);
         add("permeability", "m²", last.permeability);
         add("settling_time", "s", self.settling_time);
+        let growth = self.growth();
+        add("plateau_time", "s", growth.plateau_time);
+        add("growth_linearity", "1", growth.linearity);
+        add("final_growth_rate", "m/s", growth.final_rate);
         add("settled_share", "1", last.settled_share);
         add("coordination", "1", last.coordination);
         add("largest_overlap", "1", self.deepest);
@@ -363,6 +371,12 @@ impl<'a> Watch<'a> {
         add("contact_time", "s", self.contact_time);
         add("grains_fallen_out", "1", self.fallen_out() as f64);
         scalars
+    }
+
+    fn growth(&self) -> Growth {
+        let times: Vec<f64> = self.rows.iter().map(|row| row.0).collect();
+        let thicknesses: Vec<f64> = self.rows.iter().map(|row| row.1.thickness).collect();
+        Growth::of(&times, &thicknesses)
     }
 
     fn time_series(&self) -> Table {
