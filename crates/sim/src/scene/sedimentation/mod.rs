@@ -2,6 +2,7 @@
 
 mod check;
 mod describe;
+mod growth;
 mod model;
 mod observables;
 mod observe;

@@ -1,17 +1,19 @@
 //! What a sedimentation scene can be asked for.
 
-use super::model::{Dimensions, Sedimentation};
+use super::model::{Dimensions, Floor, Sedimentation};
 use crate::scene::Observable;
 use crate::scene::ObservableKind::{self, Profile, Scalar, Series};
 
 type Row = (&'static str, &'static str, ObservableKind, &'static str);
 
-const PLANE: &[Row] = &[(
-    "area_porosity",
-    "1",
-    Scalar,
-    "porosity of the bed's central slice by areas of discs",
-)];
+#[rustfmt::skip]
+const PLANE: &[Row] = &[
+    ("area_porosity", "1", Scalar, "porosity of the bed's central slice by areas of discs"),
+    ("area_porosity_whole", "1", Scalar, "porosity from the lowest to the highest point of the settled bed by areas of discs"),
+    ("porosity_drop", "1", Scalar, "porosity when the first grains have settled, less that at the end"),
+    ("floor_grain_diameter", "m", Scalar, "diameter of the fixed grains that make the floor"),
+    ("area_porosity", "1", Series, "porosity of the bed's central slice by areas of discs"),
+];
 
 #[rustfmt::skip]
 const ALWAYS: &[Row] = &[
@@ -22,6 +24,9 @@ const ALWAYS: &[Row] = &[
     ("thickness", "m", Scalar, "thickness of the settled bed"),
     ("permeability", "m²", Scalar, "permeability of the bed after Kozeny and Carman, from its porosity"),
     ("settling_time", "s", Scalar, "time at which the last grain has settled"),
+    ("plateau_time", "s", Scalar, "time from which on the thickness stays within 2 % of its mean over the last tenth of the run"),
+    ("growth_linearity", "1", Scalar, "r² of the straight line through the thickness from 1/8 to 7/8 of the time to its plateau"),
+    ("final_growth_rate", "m/s", Scalar, "slope of the straight line through the thickness over the last tenth of the run"),
     ("settled_share", "1", Scalar, "share of the grains that have settled"),
     ("coordination", "1", Scalar, "mean number of contacts of a settled grain"),
     ("largest_overlap", "1", Scalar, "largest overlap in the run over the smaller diameter"),
@@ -49,8 +54,13 @@ pub fn observables(scene: &Sedimentation) -> Vec<Observable> {
         Dimensions::Two => PLANE,
         Dimensions::Three => &[],
     };
-    // Without snapshots there is no table of them.
-    let kept = |row: &&Row| scene.snapshots > 0 || row.0 != "snapshots";
+    // Without snapshots there is no table of them, and without floor grains no size of theirs.
+    let floor = scene.container.floor != Floor::Flat;
+    let kept = |row: &&Row| match row.0 {
+        "snapshots" => scene.snapshots > 0,
+        "floor_grain_diameter" => floor,
+        _ => true,
+    };
     let observable = |&(name, unit, kind, meaning): &Row| Observable {
         name,
         unit,
