@@ -32,8 +32,8 @@ struct Store<'a>(&'a mut [Option<Efforts>]);
 
 impl Sink for Store<'_> {
     #[inline(always)]
-    fn take(&mut self, place: usize, _: &Block, efforts: Option<Efforts>) {
-        self.0[place] = efforts;
+    fn take(&mut self, place: usize, _: &Block, efforts: &Option<Efforts>) {
+        self.0[place] = *efforts;
     }
 }
 
