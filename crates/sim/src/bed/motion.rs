@@ -91,9 +91,11 @@ impl WideWork for KickAndDrift<'_> {
             let sound = squared.below(limit);
             fastest = W::select(sound, fastest.max(squared), W::splat(f64::INFINITY));
             let (moved, turned) = (W::records(moved), W::records(turned));
-            for lane in 0..count.min(LANES) {
-                motion[lane] = moved[lane];
-                spin[lane] = turned[lane];
+            for (old, new) in motion.iter_mut().zip(moved) {
+                *old = new;
+            }
+            for (old, new) in spin.iter_mut().zip(turned) {
+                *old = new;
             }
             if self.stride.drift > 0.0 {
                 forces.fill(Record::default());
@@ -179,7 +181,9 @@ mod tests {
 
     #[test]
     fn the_mean_decay_is_smooth_from_rest_to_the_stiffest_drag() {
-        for x in [1e-300_f64, 1e-12, 1e-6, 1e-3, 0.0499, 0.0501, 0.1, 5.0, 300.0, 1e6] {
+        for x in [
+            1e-300_f64, 1e-12, 1e-6, 1e-3, 0.0499, 0.0501, 0.1, 5.0, 300.0, 1e6,
+        ] {
             let exact = -(-x).exp_m1() / x;
             assert!(
                 (mean_decay(x) / exact - 1.0).abs() < 2e-14,
