@@ -207,8 +207,8 @@ impl Sink for &mut [Record] {
     fn take(&mut self, _: usize, block: &Block, efforts: &Option<Efforts>) {
         // By reference: moving a kilobyte at every block costs more than adding it up.
         if let Some(efforts) = efforts {
-            for end in 0..2 {
-                for lane in 0..LANES {
+            for lane in 0..LANES {
+                for end in 0..2 {
                     add(&mut self[block.members[end][lane] as usize], &efforts[end][lane]);
                 }
             }

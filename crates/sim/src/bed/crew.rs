@@ -68,10 +68,15 @@ impl Crew {
         }
         let mut next = self.starts.clone();
         self.entries.resize(pairs.blocks.len() * 2 * LANES, 0);
-        for (entry, member) in members().enumerate() {
-            let slot = &mut next[*member as usize];
-            self.entries[*slot as usize] = entry as u32;
-            *slot += 1;
+        // Pair by pair, as a single thread adds.
+        for (place, block) in pairs.blocks.iter().enumerate() {
+            for lane in 0..LANES {
+                for (end, members) in block.members.iter().enumerate() {
+                    let slot = &mut next[members[lane] as usize];
+                    self.entries[*slot as usize] = (2 * LANES * place + LANES * end + lane) as u32;
+                    *slot += 1;
+                }
+            }
         }
         self.efforts.clear();
         self.efforts.resize_with(pairs.blocks.len(), || None);
