@@ -32,8 +32,8 @@ struct Store<'a>(&'a mut [Option<Efforts>]);
 
 impl Sink for Store<'_> {
     #[inline(always)]
-    fn take(&mut self, place: usize, _: &Block, efforts: Option<Efforts>) {
-        self.0[place] = efforts;
+    fn take(&mut self, place: usize, _: &Block, efforts: &Option<Efforts>) {
+        self.0[place] = *efforts;
     }
 }
 
@@ -72,10 +72,16 @@ impl Crew {
         }
         let mut next = self.starts.clone();
         self.entries.resize(pairs.active * 2 * LANES, 0);
-        for (entry, member) in members().enumerate() {
-            let slot = &mut next[*member as usize];
-            self.entries[*slot as usize] = entry as u32;
-            *slot += 1;
+        // Pair by pair, as a single thread adds.
+        for (place, block) in pairs.blocks[..pairs.active].iter().enumerate() {
+            let [first, second] = &block.members;
+            for (lane, ends) in first.iter().zip(second).enumerate() {
+                for (end, member) in [ends.0, ends.1].into_iter().enumerate() {
+                    let slot = &mut next[*member as usize];
+                    self.entries[*slot as usize] = (2 * LANES * place + LANES * end + lane) as u32;
+                    *slot += 1;
+                }
+            }
         }
         self.efforts.clear();
         self.efforts.resize_with(pairs.active, || None);

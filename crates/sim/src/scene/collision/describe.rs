@@ -92,7 +92,9 @@ fn normal(normal: &Normal) -> String {
 fn tangential(tangential: &Tangential) -> Option<String> {
     let words = match tangential {
         Tangential::None => return None,
-        Tangential::HaffWerner(_) => "viscous friction capped by Coulomb's, stopping slip within a step",
+        Tangential::HaffWerner(_) => {
+            "viscous friction capped by Coulomb's, integrated implicitly so that it holds"
+        }
         Tangential::CundallStrack(_) => "tangential spring and dashpot capped by Coulomb's friction",
         Tangential::Mindlin(law) => match law.slip_limit {
             SlipLimit::Correct => "Mindlin friction in its full-slip form",

@@ -118,7 +118,7 @@ mod tests {
     fn a_top_that_flickers_does_not_bend_the_growth() {
         let flickering = |share: f64| {
             share
-                - if (share * 1e4) as u32 % 3 == 0 {
+                - if ((share * 1e4) as u32).is_multiple_of(3) {
                     0.2 * share
                 } else {
                     0.0

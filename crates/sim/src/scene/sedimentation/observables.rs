@@ -1,17 +1,19 @@
 //! What a sedimentation scene can be asked for.
 
-use super::model::{Dimensions, Sedimentation, Sides};
+use super::model::{Dimensions, Floor, Sedimentation, Sides};
 use crate::scene::Observable;
 use crate::scene::ObservableKind::{self, Profile, Scalar, Series};
 
 type Row = (&'static str, &'static str, ObservableKind, &'static str);
 
-const PLANE: &[Row] = &[(
-    "area_porosity",
-    "1",
-    Scalar,
-    "porosity of the bed's central slice by areas of discs",
-)];
+#[rustfmt::skip]
+const PLANE: &[Row] = &[
+    ("area_porosity", "1", Scalar, "porosity of the bed's central slice by areas of discs"),
+    ("area_porosity_whole", "1", Scalar, "porosity from the lowest to the highest point of the settled bed by areas of discs"),
+    ("porosity_drop", "1", Scalar, "porosity when the first grains have settled, less that at the end"),
+    ("floor_grain_diameter", "m", Scalar, "diameter of the fixed grains that make the floor"),
+    ("area_porosity", "1", Series, "porosity of the bed's central slice by areas of discs"),
+];
 
 const BETWEEN_WALLS: &[Row] = &[(
     "porosity_interior",
@@ -60,8 +62,13 @@ pub fn observables(scene: &Sedimentation) -> Vec<Observable> {
         (Dimensions::Three, Sides::Walls) => BETWEEN_WALLS,
         (Dimensions::Three, Sides::Periodic) => &[],
     };
-    // Without snapshots there is no table of them.
-    let kept = |row: &&Row| scene.snapshots > 0 || row.0 != "snapshots";
+    // Without snapshots there is no table of them, and without floor grains no size of theirs.
+    let floor = scene.container.floor != Floor::Flat;
+    let kept = |row: &&Row| match row.0 {
+        "snapshots" => scene.snapshots > 0,
+        "floor_grain_diameter" => floor,
+        _ => true,
+    };
     let observable = |&(name, unit, kind, meaning): &Row| Observable {
         name,
         unit,

@@ -194,6 +194,17 @@ pub fn porosity_interior(scene: &Sedimentation, bed: &Bed, heights: [f64; 2]) ->
     lines.porosity(spheres, heights)
 }
 
+/// Porosity [-] by areas of all discs in a bed of this thickness [m], from its lowest to its highest point.
+pub fn whole_area_porosity(scene: &Sedimentation, bed: &Bed, thickness: f64) -> f64 {
+    if thickness <= 0.0 {
+        return f64::NAN;
+    }
+    let discs: f64 = (0..bed.grains.moving)
+        .map(|grain| PI * bed.grains.radius(grain).powi(2))
+        .sum();
+    1.0 - discs / (scene.container.width * thickness)
+}
+
 /// Heights [m] and porosities [-] of thin slices from the floor to the top of the highest grain.
 pub fn profile(scene: &Sedimentation, bed: &Bed) -> [Vec<f64>; 2] {
     let grains = &bed.grains;

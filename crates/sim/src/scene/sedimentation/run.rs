@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::growth::Growth;
 use super::model::{Dimensions, Floor, Sedimentation, Sides, Until};
-use super::observe::{Measures, Settled, porosity_interior, profile};
+use super::observe::{Measures, Settled, porosity_interior, profile, whole_area_porosity};
 use super::start::start;
 use super::step::limits;
 use crate::bed::{Astray, Bed, Scheme};
@@ -346,9 +346,15 @@ impl<'a> Watch<'a> {
         let mut add = |name, unit, value| scalars.push(Scalar { name, unit, value });
         if self.scene.dimensions == Dimensions::Two {
             add("area_porosity", "1", last.area_porosity);
+            let whole = whole_area_porosity(self.scene, &self.bed, last.thickness);
+            add("area_porosity_whole", "1", whole);
+            add("porosity_drop", "1", self.porosity_drop());
         } else if self.scene.container.sides == Sides::Walls {
             let interior = porosity_interior(self.scene, &self.bed, last.slice);
             add("porosity_interior", "1", interior);
+        }
+        if let Floor::Grains { .. } = self.scene.container.floor {
+            add("floor_grain_diameter", "m", self.floor_grain_diameter());
         }
         add("porosity", "1", last.porosity);
         add("porosity_half", "1", last.porosity_half);
@@ -379,10 +385,25 @@ impl<'a> Watch<'a> {
         Growth::of(&times, &thicknesses)
     }
 
+    /// From the first settled grains to the end [-].
+    fn porosity_drop(&self) -> f64 {
+        let known = |row: &&(f64, Measures, f64)| !row.1.porosity.is_nan();
+        let [first, last] = [self.rows.iter().find(known), self.rows.iter().rfind(known)];
+        match (first, last) {
+            (Some(first), Some(last)) => first.1.porosity - last.1.porosity,
+            _ => f64::NAN,
+        }
+    }
+
+    /// Of the fixed grains that make the floor [m].
+    fn floor_grain_diameter(&self) -> f64 {
+        2.0 * self.bed.grains.radius(self.bed.grains.moving)
+    }
+
     fn time_series(&self) -> Table {
         let of =
             |value: fn(&Measures) -> f64| self.rows.iter().map(|(_, measures, _)| value(measures)).collect();
-        Table {
+        let mut table = Table {
             name: "time_series",
             columns: vec![
                 column("time", "s", self.rows.iter().map(|row| row.0).collect()),
@@ -400,7 +421,15 @@ impl<'a> Watch<'a> {
                     self.rows.iter().map(|row| row.2).collect(),
                 ),
             ],
+        };
+        if self.scene.dimensions == Dimensions::Two {
+            table.columns.push(column(
+                "area_porosity",
+                "1",
+                of(|measures| measures.area_porosity),
+            ));
         }
+        table
     }
 
     fn kept(&self) -> Table {
