@@ -174,9 +174,19 @@ fn panel(question: &Question, curves: &[Curve], others: &[Other], (x_unit, y_uni
         },
         Axis {
             title: format!("{}{}", format::words(question.of), y_unit.in_brackets()),
-            scale: Scale::linear(up),
+            scale: ordinate(up),
         },
     )
+}
+
+/// Logarithmic where the values are positive and spread over more than [`DECADES`].
+fn ordinate(values: Vec<f64>) -> Scale {
+    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    match least > 0.0 && most >= DECADES * least {
+        true => Scale::logarithmic(values),
+        false => Scale::linear(values),
+    }
 }
 
 fn draw_curve(panel: &mut Panel, curve: &Curve, factors: (f64, f64)) {
