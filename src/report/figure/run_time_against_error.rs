@@ -10,11 +10,12 @@ use super::{Cell, Material, Plate, Table, cited};
 use crate::report::format::Unit;
 use crate::report::{ReportError, format, selection};
 use crate::store::model::Run;
+use crate::study::model::AxisValue;
 
 /// Seconds below which a clock says nothing: shorter runs are drawn here.
 const SHORTEST: f64 = 1e-6;
 /// What is drawn where the study names no other measure of work.
-pub const RUN_TIME: &str = "timings.wall";
+pub const RUN_TIME: &str = format::RUN_TIME;
 
 /// Radius of the ring around a recommended resolution.
 const RING: i32 = theme::MARKER * 19 / 10;
@@ -51,6 +52,7 @@ pub fn draw(
         }
     }
     priced.retain(|point| point.error.error.is_finite());
+    once(&mut priced);
     if priced.is_empty() {
         return Err(ReportError("no run of this figure has a finite error".to_owned()));
     }
@@ -73,7 +75,7 @@ pub fn draw(
             },
         },
         Axis {
-            title: format!("{}{}", name(work), time_unit.in_brackets()),
+            title: format!("{}{}", format::measure(work), time_unit.in_brackets()),
             scale: Scale::logarithmic(priced.iter().map(|point| point.cost * time_unit.factor)),
         },
     );
@@ -91,7 +93,7 @@ pub fn draw(
         draw_front(&mut panel, front, &priced, &places);
     }
     let resolution = resolution(material, group);
-    draw_points(&mut panel, &priced, &places, resolution.as_deref());
+    draw_points(material, &mut panel, (&priced, &places), resolution.as_deref());
     panel.heading = group.and_then(selection::heading);
     let headed = panel.heading.is_some();
 
@@ -130,7 +132,11 @@ pub fn draw(
             open: false,
         });
     }
-    let suggested = format!("{} against relative error of {}", name(work), format::words(of));
+    let suggested = format!(
+        "{} against relative error of {}",
+        format::measure(work),
+        format::words(of)
+    );
     let title = material.title(&suggested);
     let description = format!(
         "{} points, {} of them on the Pareto front.",
@@ -144,6 +150,23 @@ pub fn draw(
         notes.push("Wall time of one point; it differs from machine to machine.".to_owned());
     }
     Ok(material.plate(title, drawing, material.captioned(&suggested, notes), table))
+}
+
+/// Seeds that change nothing are one point.
+fn once(priced: &mut Vec<Priced>) {
+    let same = |one: &Priced, other: &Priced| {
+        let (a, b) = (one.run, other.run);
+        (a.scene == b.scene && a.axes == b.axes)
+            && (one.error.computed == other.error.computed && one.error.error == other.error.error)
+            && one.cost == other.cost
+    };
+    let mut place = 0;
+    while place < priced.len() {
+        match priced[..place].iter().any(|other| same(other, &priced[place])) {
+            true => drop(priced.remove(place)),
+            false => place += 1,
+        }
+    }
 }
 
 /// Indices on the front of each scene, from the smallest error upwards. Scenes are different problems:
@@ -212,7 +235,12 @@ fn is_recommended(run: &Run, resolution: Option<&str>) -> bool {
     })
 }
 
-fn draw_points(panel: &mut Panel, priced: &[Priced], places: &[Position], resolution: Option<&str>) {
+fn draw_points(
+    material: &Material,
+    panel: &mut Panel,
+    (priced, places): (&[Priced], &[Position]),
+    resolution: Option<&str>,
+) {
     for (point, at) in priced.iter().zip(places) {
         let Style { colour, marker, .. } = theme::style(point.group);
         panel.canvas.marker(marker, *at, colour, 1.0);
@@ -233,7 +261,11 @@ fn draw_points(panel: &mut Panel, priced: &[Priced], places: &[Position], resolu
                 false => theme::MARKER + 20,
             };
             let colour = theme::style(point.group).colour;
-            panel.label_beside(*at, half, &format::number(value), colour);
+            let label = match selection::axis_unit(material.study, name) {
+                "1" | "" => format::number(value),
+                _ => selection::shown(material.study, name, &AxisValue::Number(value)),
+            };
+            panel.label_beside(*at, half, &label, colour);
         }
     }
 }
@@ -264,15 +296,6 @@ fn notes(material: &Material, priced: &[Priced], against: &str, resolution: Opti
     notes
 }
 
-/// A measure of work in words.
-fn name(work: &str) -> String {
-    match work {
-        RUN_TIME => "run time".to_owned(),
-        "timings.cpu" => "CPU time".to_owned(),
-        counter => format::words(counter.trim_start_matches("counters.")),
-    }
-}
-
 fn table(material: &Material, priced: &[Priced], front: &[usize], (of, work): (&str, &str)) -> Table {
     let unit = material
         .runs
@@ -289,7 +312,7 @@ fn table(material: &Material, priced: &[Priced], front: &[usize], (of, work): (&
         "steps [1]",
         "on the front",
     ];
-    let cost = format!("{} [1]", name(work));
+    let cost = format!("{} [1]", format::measure(work));
     let head: Vec<&str> = match work {
         RUN_TIME => head.to_vec(),
         _ => head.into_iter().chain([cost.as_str()]).collect(),

@@ -37,8 +37,12 @@ pub fn run(scene: &Sedimentation, control: &Control) -> Result<Outcome, Box<Fail
     };
     let limits = limits(scene);
     let dt = limits.time_step;
-    let rows = (scene.duration / ROW).ceil().clamp(ROWS[0], ROWS[1]);
     let steps = (scene.duration / dt).ceil().max(1.0) as u64;
+    // No row without a step since the last one.
+    let rows = (scene.duration / ROW)
+        .ceil()
+        .clamp(ROWS[0], ROWS[1])
+        .min(steps as f64);
     let mut watch = Watch::new(scene, bed, limits.contact_time, dt);
     watch.look(0);
     let mut motion = Mover::start(scene.integrator, &mut watch.bed);
