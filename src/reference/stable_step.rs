@@ -140,14 +140,15 @@ fn runge_kutta(w: f64, damping: f64) -> f64 {
 /// The matrix of one step.
 fn gear(corrector: &[f64], w: f64, damping: f64) -> Vec<Vec<f64>> {
     let size = corrector.len();
-    let mut pascal = vec![vec![0.0; size]; size];
-    for column in 0..size {
-        let mut binomial = 1.0;
-        for row in 0..=column {
-            pascal[row][column] = binomial;
-            binomial *= (column - row) as f64 / (row + 1) as f64;
-        }
-    }
+    // Zero below the diagonal: one factor vanishes.
+    let binomial = |row: usize, column: usize| -> f64 {
+        (0..row)
+            .map(|k| (column as f64 - k as f64) / (k + 1) as f64)
+            .product()
+    };
+    let pascal: Vec<Vec<f64>> = (0..size)
+        .map(|row| (0..size).map(|column| binomial(row, column)).collect())
+        .collect();
     let gap: Vec<f64> = (0..size)
         .map(|column| -0.5 * w * w * pascal[0][column] - damping * w * pascal[1][column] - pascal[2][column])
         .collect();
