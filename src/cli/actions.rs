@@ -19,6 +19,8 @@ use crate::{report, study};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
     pub completed: usize,
+    /// Diverged where an expectation takes that for an answer.
+    pub diverged: usize,
     pub failed: usize,
     pub missing: usize,
 }
@@ -218,6 +220,9 @@ impl Tally {
         {
             match finished.get(&planned.id) {
                 Some(store::model::Status::Completed) => tally.completed += 1,
+                Some(store::model::Status::Diverged) if study.asks_divergence(&planned.point) => {
+                    tally.diverged += 1;
+                }
                 Some(_) => tally.failed += 1,
                 None => tally.missing += 1,
             }
@@ -236,12 +241,13 @@ impl Tally {
 
 impl fmt::Display for Tally {
     fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
-        let all = super::magnitude::count(self.completed + self.failed + self.missing, "point");
-        write!(
-            out,
-            "{all}: {} completed, {} failed, {} missing",
-            self.completed, self.failed, self.missing
-        )
+        let all = self.completed + self.diverged + self.failed + self.missing;
+        let all = super::magnitude::count(all, "point");
+        write!(out, "{all}: {} completed, ", self.completed)?;
+        if self.diverged > 0 {
+            write!(out, "{} diverged as asked, ", self.diverged)?;
+        }
+        write!(out, "{} failed, {} missing", self.failed, self.missing)
     }
 }
 
@@ -256,6 +262,7 @@ mod tests {
                 completed,
                 failed,
                 missing,
+                ..Tally::default()
             }
             .status()
         };

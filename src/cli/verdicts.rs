@@ -133,6 +133,7 @@ mod tests {
             completed: 2,
             failed: 1,
             missing: 0,
+            ..Tally::default()
         };
         let text = verdicts(
             &[verdict(Outcome::Holds), failed],

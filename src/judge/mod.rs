@@ -1,5 +1,6 @@
 //! From runs and references to verdicts.
 
+pub mod bracket;
 mod check;
 pub mod convergence;
 pub mod exit;
@@ -30,7 +31,11 @@ pub fn judge(study: &Study, runs: &[Run]) -> Vec<Verdict> {
 }
 
 fn verdict(study: &Study, runs: &[Run], expectation: &Expectation) -> Verdict {
-    let groups = select::selected(study, runs, &expectation.selection);
+    let divergence_answers = expectation.check.asks_divergence();
+    let groups = match &expectation.check {
+        Check::Status { .. } | Check::Limit(_) => select::ended(study, runs, &expectation.selection),
+        _ => select::selected(study, runs, &expectation.selection),
+    };
     let finding = match &expectation.check {
         _ if groups.is_empty() => Finding::default(),
         Check::Value { of, band } => check::value::check(&groups, of, band),
@@ -67,8 +72,16 @@ fn verdict(study: &Study, runs: &[Run], expectation: &Expectation) -> Verdict {
             let pairs = select::pairs(study, runs, &groups, &comparison.between);
             check::compare::check(&pairs, comparison)
         }
+        Check::Scaling { of, over, is, within } => {
+            let chains = select::chains(study, runs, &groups, over);
+            check::scaling::check(&chains, of, over, *is, *within)
+        }
+        Check::Status { is } => check::status::check(&groups, is),
+        Check::Limit(limit) => {
+            check::limit::check(study, &bracket::brackets(study, runs, &groups, limit), limit)
+        }
     };
-    let open = select::unanswered(study, runs, |run| {
+    let open = select::unanswered(study, runs, divergence_answers, |run| {
         select::admits(&expectation.selection, run)
             && match &expectation.check {
                 Check::Compare(comparison) => comparison

@@ -1,7 +1,7 @@
 //! An expectation in words.
 
 use super::words::{band, percent, relation, selection, significant};
-use crate::study::model::{Band, Check, Comparison, Norm, Relation};
+use crate::study::model::{Band, Check, Comparison, Ending, Limit, Norm, Relation};
 
 pub struct Phrase {
     pub statement: String,
@@ -33,6 +33,9 @@ impl Phrase {
                 within_noise,
             } => monotone(of, over, *rising, *within_noise),
             Check::Compare(comparison) => compare(comparison),
+            Check::Scaling { of, over, is, within } => scaling(of, over, *is, *within),
+            Check::Status { is } => status(is),
+            Check::Limit(limit) => left(limit),
         }
     }
 }
@@ -93,6 +96,47 @@ fn monotone(of: &str, over: &str, rising: bool, within_noise: bool) -> Phrase {
         statement: format!("`{of}` {direction} with `{over}`{noise}"),
         quantity: of.to_string(),
         band: band.to_string(),
+    }
+}
+
+fn scaling(of: &str, over: &str, is: f64, within: f64) -> Phrase {
+    let (exponent, tolerance) = (significant(is, 6), significant(within, 6));
+    Phrase {
+        statement: format!("`{of}` grows like `{over}` to the power {exponent} ± {tolerance}"),
+        quantity: format!("exponent of {of} over {over}"),
+        band: format!(
+            "{} to {}",
+            significant(is - within, 6),
+            significant(is + within, 6)
+        ),
+    }
+}
+
+fn status(is: &[Ending]) -> Phrase {
+    let word = |ending: &Ending| match ending {
+        Ending::Completed => "completes",
+        Ending::Diverged => "diverges and says why",
+    };
+    let band = is.iter().map(word).collect::<Vec<_>>().join(" or ");
+    Phrase {
+        statement: format!("every run {band}"),
+        quantity: "status".to_string(),
+        band,
+    }
+}
+
+fn left(limit: &Limit) -> Phrase {
+    let Limit {
+        of, over, against, ..
+    } = limit;
+    Phrase {
+        statement: format!(
+            "`{of}` stays {} up to the `{over}` of the reference `{against}`, within {} of the values on both sides",
+            band(&limit.band),
+            percent(limit.within)
+        ),
+        quantity: over.clone(),
+        band: format!("within {}", significant(limit.within, 6)),
     }
 }
 

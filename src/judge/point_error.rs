@@ -57,11 +57,11 @@ pub fn point_error(run: &Run, of: &str, against: &str, norm: Norm) -> Result<Poi
         scalars: &scalar,
     };
     let refused = |error: reference::ReferenceError| Undecided(error.to_string());
-    let error = if let Some(found) = run.scalar(of) {
+    let error = if let Some((found, unit)) = run.measure(of) {
         let expected = reference::scalar(against, &facts).map_err(refused)?;
-        same_dimension((of, &found.unit), (against, expected.unit))?;
-        let values = (vec![found.value], expected.values);
-        largest(values, &found.unit, expected.source)
+        same_dimension((of, unit), (against, expected.unit))?;
+        let values = (vec![found], expected.values);
+        largest(values, unit, expected.source)
     } else {
         let (times, values, unit) = series(run, of)?;
         let measured = reference::points(against, &facts).map_err(refused)?;
@@ -158,7 +158,7 @@ pub fn mean_error(
     })
 }
 
-/// A scalar, or a work counter, over seeds.
+/// A scalar, or a measure of work, over seeds.
 ///
 /// # Errors
 /// A run without it, or a value that is not finite.
@@ -166,12 +166,7 @@ pub fn mean_scalar(replicates: &Replicates, of: &str) -> Result<Mean, Undecided>
     let mut values = Vec::new();
     let mut unit = String::new();
     for run in &replicates.runs {
-        let counter = run.counters.iter().find(|(name, _)| name == of);
-        let (value, its_unit) = match (run.scalar(of), counter) {
-            (Some(scalar), _) => (scalar.value, scalar.unit.as_str()),
-            (None, Some((_, count))) => (*count as f64, "1"),
-            (None, None) => return Err(missing(run, of)),
-        };
+        let (value, its_unit) = run.measure(of).ok_or_else(|| missing(run, of))?;
         if !value.is_finite() {
             return Err(Undecided(format!("{of} is {value}")));
         }

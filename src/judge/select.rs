@@ -46,6 +46,25 @@ pub fn selected<'a>(study: &Study, runs: &'a [Run], selection: &Selection) -> Ve
     gathered(study, runs.iter().filter(meant).collect())
 }
 
+/// The same of runs that completed or diverged.
+pub fn ended<'a>(study: &Study, runs: &'a [Run], selection: &Selection) -> Vec<Replicates<'a>> {
+    let meant = |run: &&Run| has_ended(run) && admits(selection, run);
+    gathered(study, runs.iter().filter(meant).collect())
+}
+
+fn has_ended(run: &Run) -> bool {
+    matches!(run.status, Status::Completed | Status::Diverged)
+}
+
+/// Whether a run diverged where an expectation of the study takes that for an answer.
+pub fn answers_by_diverging(study: &Study, run: &Run) -> bool {
+    let mut about = study
+        .expect
+        .iter()
+        .filter(|expectation| admits(&expectation.selection, run));
+    run.status == Status::Diverged && about.any(|expectation| expectation.check.asks_divergence())
+}
+
 /// Runs with their seeds gathered, in a stable order whatever order they came in.
 pub fn gathered<'a>(study: &Study, mut chosen: Vec<&'a Run>) -> Vec<Replicates<'a>> {
     chosen.sort_by(|a, b| order(study, a, b));
@@ -60,15 +79,24 @@ pub fn gathered<'a>(study: &Study, mut chosen: Vec<&'a Run>) -> Vec<Replicates<'
     groups
 }
 
-/// Labels of the planned or attempted points that are meant and that have no completed run.
-pub fn unanswered(study: &Study, runs: &[Run], meant: impl Fn(&Run) -> bool) -> Vec<String> {
-    let completed = selected(study, runs, &Selection::default());
+/// Labels of the planned or attempted points that are meant and that have no completed run, or none that
+/// diverged either where that is an answer.
+pub fn unanswered(
+    study: &Study,
+    runs: &[Run],
+    divergence_answers: bool,
+    meant: impl Fn(&Run) -> bool,
+) -> Vec<String> {
+    let answered = match divergence_answers {
+        true => ended(study, runs, &Selection::default()),
+        false => selected(study, runs, &Selection::default()),
+    };
     let planned: Vec<Run> = study.plan.points.iter().map(sketch).collect();
     let mut open: Vec<&Run> = planned
         .iter()
         .chain(runs)
         .filter(|run| meant(run))
-        .filter(|run| !completed.iter().any(|group| same_setting(group.first(), run)))
+        .filter(|run| !answered.iter().any(|group| same_setting(group.first(), run)))
         .collect();
     open.sort_by(|a, b| order(study, a, b));
     let mut labels: Vec<String> = open.into_iter().map(label).collect();

@@ -1,3 +1,4 @@
+mod limits;
 mod published;
 
 use super::exit::exit_code;

@@ -1,5 +1,6 @@
 //! Values to judge against: analytic solutions and published data. Shares nothing with the simulator.
 
+mod all_pairs;
 mod collision;
 pub mod data;
 pub mod drag_law;
@@ -14,6 +15,7 @@ mod root;
 mod settings;
 pub mod smoothed_balance;
 pub mod spring_dashpot_collision;
+mod stable_step;
 pub mod stokes_start_up;
 pub mod terminal_velocity;
 
@@ -87,6 +89,8 @@ fn solutions() -> Vec<Solution> {
         collision::contact_time(),
         collision::overlap(),
         collision::sliding(),
+        all_pairs::solution(),
+        stable_step::solution(),
         rehearsal::limit(),
         rehearsal::series(),
     ]

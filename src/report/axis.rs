@@ -101,6 +101,10 @@ impl Scale {
         self
     }
 
+    pub fn is_logarithmic(&self) -> bool {
+        self.logarithmic
+    }
+
     pub fn ticks(&self) -> &[Tick] {
         &self.ticks
     }

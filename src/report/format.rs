@@ -84,6 +84,18 @@ pub fn pretty_unit(unit: &str) -> String {
     }
 }
 
+/// The measure of work that runs are compared by unless told.
+pub const RUN_TIME: &str = "timings.wall";
+
+/// A quantity in words: `counters.searched_pairs` is `searched pairs`, `timings.cpu` is `CPU time`.
+pub fn measure(name: &str) -> String {
+    match name {
+        RUN_TIME => "run time".to_owned(),
+        "timings.cpu" => "CPU time".to_owned(),
+        name => words(name.trim_start_matches("counters.")),
+    }
+}
+
 /// `spacing / diameter` for `spacing_over_diameter`; people keep their capitals.
 pub fn words(name: &str) -> String {
     name.replace("_over_", " / ")

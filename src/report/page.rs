@@ -12,6 +12,7 @@ use super::figure::{Plate, Table};
 use super::table::{self, Effort};
 use super::{ReportError, format, selection, verdict_row};
 use crate::judge::model::{Outcome, Verdict};
+use crate::judge::select::answers_by_diverging;
 use crate::store::model::{Run, Status};
 use crate::study::model::{Figure, Study};
 
@@ -55,6 +56,8 @@ struct Counts {
     informative: usize,
     planned: usize,
     completed: usize,
+    /// Diverged where an expectation takes that for an answer.
+    diverged: usize,
     failed: usize,
     missing: usize,
 }
@@ -193,6 +196,7 @@ fn counts(study: &Study, runs: &[Run], verdicts: &[Verdict]) -> Counts {
     };
     let completed = runs.iter().filter(|run| run.status == Status::Completed).count();
     let planned = study.plan.points.len().max(runs.len());
+    let diverged = runs.iter().filter(|run| answers_by_diverging(study, run)).count();
     Counts {
         holds: gating(Outcome::Holds),
         fails: gating(Outcome::Fails),
@@ -203,7 +207,8 @@ fn counts(study: &Study, runs: &[Run], verdicts: &[Verdict]) -> Counts {
             .count(),
         planned,
         completed,
-        failed: runs.len() - completed,
+        diverged,
+        failed: runs.len() - completed - diverged,
         missing: planned - runs.len(),
     }
 }
@@ -269,7 +274,9 @@ fn mark(kind: &str) -> &'static str {
 }
 
 fn failures(study: &Study, runs: &[Run]) -> Vec<Failure> {
-    let failed = runs.iter().filter(|run| run.status != Status::Completed);
+    let failed = runs
+        .iter()
+        .filter(|run| run.status != Status::Completed && !answers_by_diverging(study, run));
     failed
         .map(|run| Failure {
             label: selection::label(study, run),

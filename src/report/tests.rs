@@ -128,6 +128,7 @@ fn figures() -> Vec<Figure> {
         group: group.map(Into::into),
     };
     let cost = |group: Option<&str>| FigureKind::RunTimeAgainstError {
+        work: None,
         of: "terminal_velocity".into(),
         against: "force_balance".into(),
         group: group.map(Into::into),
@@ -741,6 +742,7 @@ fn a_rehearsed_sweep_shows_the_order_it_was_given() {
                 group: None,
             },
             false => FigureKind::RunTimeAgainstError {
+                work: None,
                 of,
                 against,
                 group: None,

@@ -88,6 +88,22 @@ impl Run {
         self.scalars.iter().find(|scalar| scalar.name == name)
     }
 
+    /// A number of the run with its unit: a scalar, `counters.NAME`, `timings.wall` or `timings.cpu`.
+    pub fn measure(&self, name: &str) -> Option<(f64, &str)> {
+        if let Some(scalar) = self.scalar(name) {
+            return Some((scalar.value, &scalar.unit));
+        }
+        match name {
+            "timings.wall" => return Some((self.timing.wall, "s")),
+            "timings.cpu" => return Some((self.timing.cpu, "s")),
+            _ => {}
+        }
+        let counter = name.strip_prefix("counters.").unwrap_or(name);
+        let mut counters = self.counters.iter();
+        let found = counters.find(|(known, _)| known == counter);
+        found.map(|(_, count)| (*count as f64, "1"))
+    }
+
     pub fn table(&self, name: &str) -> Option<&Table> {
         self.tables.iter().find(|table| table.name == name)
     }

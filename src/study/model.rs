@@ -275,6 +275,59 @@ pub enum Check {
     },
     /// A scalar of one selection of points beside that of another, everything else equal.
     Compare(Comparison),
+    /// A scalar grows along an axis like a power of it, everything else fixed.
+    Scaling {
+        of: String,
+        over: String,
+        /// The exponent.
+        is: f64,
+        within: f64,
+    },
+    /// Every selected run ends in one of these ways; divergence counts as an answer where it is named.
+    Status { is: Vec<Ending> },
+    /// Along an axis, a scalar leaves its band where the reference says; divergence counts as outside.
+    Limit(Limit),
+}
+
+/// The end of a run that a study can ask for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    Completed,
+    Diverged,
+}
+
+/// The place on an axis at which a scalar leaves a band, from small values of the axis up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limit {
+    pub of: String,
+    pub band: Band,
+    pub over: String,
+    /// Reference for the place.
+    pub against: String,
+    /// Relative distance from the reference that the two neighbouring values of the axis may have.
+    pub within: f64,
+}
+
+impl Check {
+    /// Whether a run that diverges is an answer to it.
+    pub fn asks_divergence(&self) -> bool {
+        match self {
+            Check::Status { is } => is.contains(&Ending::Diverged),
+            Check::Limit(_) => true,
+            _ => false,
+        }
+    }
+}
+
+impl Study {
+    /// Whether an expectation about this point takes a divergence for an answer.
+    pub fn asks_divergence(&self, point: &Point) -> bool {
+        let mut about = self
+            .expect
+            .iter()
+            .filter(|expectation| expectation.selection.admits(point));
+        about.any(|expectation| expectation.check.asks_divergence())
+    }
 }
 
 /// How a scalar of a first selection lies to that of a second.
@@ -324,10 +377,12 @@ pub enum FigureKind {
         over: String,
         group: Option<String>,
     },
-    /// Run time against error with the Pareto front.
+    /// Run time, or another measure of work, against error with the Pareto front.
     RunTimeAgainstError {
         of: String,
         against: String,
+        /// `timings.wall` unless given.
+        work: Option<String>,
         group: Option<String>,
     },
     /// A profile table, one line per run: first column upwards, `of` along.
@@ -338,6 +393,12 @@ pub enum FigureKind {
         over: String,
         group: Option<String>,
         against: Vec<Beside>,
+    },
+    /// The place on an axis at which a scalar leaves a band, over another axis, beside the reference.
+    Limit {
+        limit: Limit,
+        across: String,
+        group: Option<String>,
     },
     /// Pictures of the grains of one point at the kept times nearest to these [s].
     Snapshots { times: Vec<f64> },

@@ -4,6 +4,7 @@ use kynch_sim::scene::{Observable, ObservableKind};
 
 use super::model::Work;
 use super::published::published;
+use super::units::{self, Dimension};
 
 /// What a scene can be asked for.
 pub fn observables(work: &Work) -> Vec<Observable> {
@@ -38,6 +39,37 @@ const REHEARSAL: &[Row] = &[
 
 const SNAPSHOTS: Row = ("snapshots", "1", Profile, "every grain at some instants");
 
+/// What every run is measured by, whatever its scene: `counters.NAME`, `timings.wall`, `timings.cpu`.
+pub fn is_measured_work(name: &str) -> bool {
+    COUNTERS.iter().chain(TIMINGS).any(|known| *known == name)
+}
+
+/// All of them.
+pub fn measures_of_work() -> Vec<&'static str> {
+    COUNTERS.iter().chain(TIMINGS).copied().collect()
+}
+
+/// Unit of a measure of work.
+pub fn work_unit(name: &str) -> Option<Dimension> {
+    match TIMINGS.contains(&name) {
+        true => units::parse("1 s").ok().map(|second| second.dimension),
+        false => Some(Dimension::NONE),
+    }
+}
+
+const COUNTERS: &[&str] = &[
+    "counters.steps",
+    "counters.grain_steps",
+    "counters.fluid_pairs",
+    "counters.coupling_pairs",
+    "counters.grain_pairs",
+    "counters.searched_pairs",
+    "counters.list_rebuilds",
+    "counters.porosity_clips",
+];
+
+const TIMINGS: &[&str] = &["timings.wall", "timings.cpu"];
+
 /// References by name, and whether each is a curve: solutions, then published data.
 pub fn references() -> Vec<(&'static str, ObservableKind)> {
     let data = published().iter().map(|entry| (entry.name.as_str(), entry.kind));
@@ -54,6 +86,8 @@ const SOLUTIONS: &[(&str, ObservableKind)] = &[
     ("collision_contact_time", Scalar),
     ("collision_overlap", Scalar),
     ("sliding_restitution", Scalar),
+    ("all_pairs", Scalar),
+    ("stable_step", Scalar),
     ("known_limit", Scalar),
     ("known_series", Series),
 ];

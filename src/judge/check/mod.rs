@@ -2,8 +2,11 @@
 
 pub mod compare;
 pub mod error;
+pub mod limit;
 pub mod monotone;
 pub mod order;
+pub mod scaling;
+pub mod status;
 pub mod value;
 
 use super::model::{Outcome, PointVerdict};

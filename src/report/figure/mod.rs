@@ -1,6 +1,7 @@
 //! One file per figure kind: from runs to a drawing, a table and notes for the caption.
 
 pub mod error_against_resolution;
+pub mod limit;
 mod lines;
 pub mod profile;
 mod replicates;
@@ -195,9 +196,16 @@ impl Material<'_> {
                 over,
                 group,
             } => error_against_resolution::draw(self, of, against, over, group.as_deref()),
-            FigureKind::RunTimeAgainstError { of, against, group } => {
-                run_time_against_error::draw(self, of, against, group.as_deref())
+            FigureKind::RunTimeAgainstError {
+                of,
+                against,
+                work,
+                group,
+            } => {
+                let work = work.as_deref().unwrap_or(run_time_against_error::RUN_TIME);
+                run_time_against_error::draw(self, (of, against), work, group.as_deref())
             }
+            FigureKind::Limit { limit, across, group } => limit::draw(self, limit, across, group.as_deref()),
             FigureKind::Profile { of, group } => profile::draw(self, of, group.as_deref()),
             FigureKind::Response {
                 of,

@@ -23,6 +23,8 @@ pub struct Question<'a> {
 
 /// An axis that spans more than this is logarithmic.
 const DECADES: f64 = 30.0;
+/// An abscissa that spans more than this is logarithmic beside a logarithmic ordinate.
+const OCTAVES: f64 = 8.0;
 
 /// Means along the axis, everything else fixed.
 struct Curve<'a> {
@@ -52,7 +54,7 @@ pub fn draw(material: &Material, question: &Question, group: Option<&str>) -> Re
     let legend = legend(question, &curves, &others);
     let suggested = format!(
         "{} over {}",
-        format::words(question.of),
+        format::measure(question.of),
         format::title_words(question.over)
     );
     let title = material.title(&suggested);
@@ -154,7 +156,14 @@ fn panel(question: &Question, curves: &[Curve], others: &[Other], (x_unit, y_uni
     }
     let least = across.iter().copied().fold(f64::INFINITY, f64::min);
     let most = across.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let wide = least > 0.0 && most >= DECADES * least;
+    let ordinate = ordinate(up);
+    // Where the ordinate is logarithmic a power is a straight line only if the abscissa is so too.
+    let enough = if ordinate.is_logarithmic() {
+        OCTAVES
+    } else {
+        DECADES
+    };
+    let wide = least > 0.0 && most >= enough * least;
     let x = match wide {
         true => Scale::logarithmic(across.iter().copied()),
         false => Scale::linear(across.iter().copied()),
@@ -173,10 +182,20 @@ fn panel(question: &Question, curves: &[Curve], others: &[Other], (x_unit, y_uni
             scale: x,
         },
         Axis {
-            title: format!("{}{}", format::words(question.of), y_unit.in_brackets()),
-            scale: Scale::linear(up),
+            title: format!("{}{}", format::measure(question.of), y_unit.in_brackets()),
+            scale: ordinate,
         },
     )
+}
+
+/// Logarithmic where the values are positive and spread over more than [`DECADES`].
+fn ordinate(values: Vec<f64>) -> Scale {
+    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    match least > 0.0 && most >= DECADES * least {
+        true => Scale::logarithmic(values),
+        false => Scale::linear(values),
+    }
 }
 
 fn draw_curve(panel: &mut Panel, curve: &Curve, factors: (f64, f64)) {

@@ -10,9 +10,12 @@ use super::{Cell, Material, Plate, Table, cited};
 use crate::report::format::Unit;
 use crate::report::{ReportError, format, selection};
 use crate::store::model::Run;
+use crate::study::model::AxisValue;
 
 /// Seconds below which a clock says nothing: shorter runs are drawn here.
 const SHORTEST: f64 = 1e-6;
+/// What is drawn where the study names no other measure of work.
+pub const RUN_TIME: &str = format::RUN_TIME;
 
 /// Radius of the ring around a recommended resolution.
 const RING: i32 = theme::MARKER * 19 / 10;
@@ -21,31 +24,42 @@ struct Priced<'a> {
     run: &'a Run,
     group: usize,
     error: PointError,
-    seconds: f64,
+    /// [s], or a count.
+    cost: f64,
 }
 
-pub fn draw(material: &Material, of: &str, against: &str, group: Option<&str>) -> Result<Plate, ReportError> {
+pub fn draw(
+    material: &Material,
+    (of, against): (&str, &str),
+    work: &str,
+    group: Option<&str>,
+) -> Result<Plate, ReportError> {
     let groups = selection::grouped(material.study, &material.runs, group);
     let mut priced = Vec::new();
     for (index, members) in groups.iter().enumerate() {
         for run in &members.runs {
             let error = (material.numbers.error)(run, of, against).map_err(ReportError)?;
-            let seconds = run.timing.wall.max(SHORTEST);
+            let (cost, unit) = run
+                .measure(work)
+                .ok_or_else(|| ReportError(format!("the runs have no `{work}`")))?;
+            let cost = if unit == "s" { cost.max(SHORTEST) } else { cost };
             priced.push(Priced {
                 run,
                 group: index,
                 error,
-                seconds,
+                cost,
             });
         }
     }
     priced.retain(|point| point.error.error.is_finite());
+    once(&mut priced);
     if priced.is_empty() {
         return Err(ReportError("no run of this figure has a finite error".to_owned()));
     }
     let logarithmic = priced.iter().all(|point| point.error.error > 0.0);
     let error_unit = Unit::of_errors(priced.iter().map(|point| point.error.error).fold(0.0, f64::max));
-    let time_unit = format::readable("s", priced.iter().map(|point| point.seconds).fold(0.0, f64::max));
+    let unit = if work.starts_with("timings.") { "s" } else { "1" };
+    let time_unit = format::readable(unit, priced.iter().map(|point| point.cost).fold(0.0, f64::max));
     let errors = priced.iter().map(|point| point.error.error * error_unit.factor);
     let mut panel = Panel::new(
         Axis {
@@ -61,8 +75,8 @@ pub fn draw(material: &Material, of: &str, against: &str, group: Option<&str>) -
             },
         },
         Axis {
-            title: format!("run time{}", time_unit.in_brackets()),
-            scale: Scale::logarithmic(priced.iter().map(|point| point.seconds * time_unit.factor)),
+            title: format!("{}{}", format::measure(work), time_unit.in_brackets()),
+            scale: Scale::logarithmic(priced.iter().map(|point| point.cost * time_unit.factor)),
         },
     );
     let places: Vec<Position> = priced
@@ -70,7 +84,7 @@ pub fn draw(material: &Material, of: &str, against: &str, group: Option<&str>) -
         .map(|point| {
             panel.at(
                 point.error.error * error_unit.factor,
-                point.seconds * time_unit.factor,
+                point.cost * time_unit.factor,
             )
         })
         .collect();
@@ -79,7 +93,7 @@ pub fn draw(material: &Material, of: &str, against: &str, group: Option<&str>) -
         draw_front(&mut panel, front, &priced, &places);
     }
     let resolution = resolution(material, group);
-    draw_points(&mut panel, &priced, &places, resolution.as_deref());
+    draw_points(material, &mut panel, (&priced, &places), resolution.as_deref());
     panel.heading = group.and_then(selection::heading);
     let headed = panel.heading.is_some();
 
@@ -118,7 +132,11 @@ pub fn draw(material: &Material, of: &str, against: &str, group: Option<&str>) -
             open: false,
         });
     }
-    let suggested = format!("run time against relative error of {}", format::words(of));
+    let suggested = format!(
+        "{} against relative error of {}",
+        format::measure(work),
+        format::words(of)
+    );
     let title = material.title(&suggested);
     let description = format!(
         "{} points, {} of them on the Pareto front.",
@@ -126,9 +144,29 @@ pub fn draw(material: &Material, of: &str, against: &str, group: Option<&str>) -
         front.len()
     );
     let drawing = panel.finish(&legend, &material.id(), &title, &description)?;
-    let table = table(material, &priced, &front, of);
-    let notes = notes(material, &priced, against, resolution.as_deref());
+    let table = table(material, &priced, &front, (of, work));
+    let mut notes = notes(material, &priced, against, resolution.as_deref());
+    if work == RUN_TIME {
+        notes.push("Wall time of one point; it differs from machine to machine.".to_owned());
+    }
     Ok(material.plate(title, drawing, material.captioned(&suggested, notes), table))
+}
+
+/// Seeds that change nothing are one point.
+fn once(priced: &mut Vec<Priced>) {
+    let same = |one: &Priced, other: &Priced| {
+        let (a, b) = (one.run, other.run);
+        (a.scene == b.scene && a.axes == b.axes)
+            && (one.error.computed == other.error.computed && one.error.error == other.error.error)
+            && one.cost == other.cost
+    };
+    let mut place = 0;
+    while place < priced.len() {
+        match priced[..place].iter().any(|other| same(other, &priced[place])) {
+            true => drop(priced.remove(place)),
+            false => place += 1,
+        }
+    }
 }
 
 /// Indices on the front of each scene, from the smallest error upwards. Scenes are different problems:
@@ -143,7 +181,7 @@ fn fronts(material: &Material, priced: &[Priced]) -> Vec<Vec<usize>> {
             .collect();
         let pairs: Vec<(f64, f64)> = members
             .iter()
-            .map(|index| (priced[*index].seconds, priced[*index].error.error))
+            .map(|index| (priced[*index].cost, priced[*index].error.error))
             .collect();
         let mut front = (material.numbers.front)(&pairs);
         front.sort_by(|one, other| pairs[*one].1.total_cmp(&pairs[*other].1));
@@ -197,7 +235,12 @@ fn is_recommended(run: &Run, resolution: Option<&str>) -> bool {
     })
 }
 
-fn draw_points(panel: &mut Panel, priced: &[Priced], places: &[Position], resolution: Option<&str>) {
+fn draw_points(
+    material: &Material,
+    panel: &mut Panel,
+    (priced, places): (&[Priced], &[Position]),
+    resolution: Option<&str>,
+) {
     for (point, at) in priced.iter().zip(places) {
         let Style { colour, marker, .. } = theme::style(point.group);
         panel.canvas.marker(marker, *at, colour, 1.0);
@@ -218,7 +261,11 @@ fn draw_points(panel: &mut Panel, priced: &[Priced], places: &[Position], resolu
                 false => theme::MARKER + 20,
             };
             let colour = theme::style(point.group).colour;
-            panel.label_beside(*at, half, &format::number(value), colour);
+            let label = match selection::axis_unit(material.study, name) {
+                "1" | "" => format::number(value),
+                _ => selection::shown(material.study, name, &AxisValue::Number(value)),
+            };
+            panel.label_beside(*at, half, &label, colour);
         }
     }
 }
@@ -246,11 +293,10 @@ fn notes(material: &Material, priced: &[Priced], against: &str, resolution: Opti
             notes.push(format!("Ringed: the recommended resolution, {value}."));
         }
     }
-    notes.push("Wall time of one point; it differs from machine to machine.".to_owned());
     notes
 }
 
-fn table(material: &Material, priced: &[Priced], front: &[usize], of: &str) -> Table {
+fn table(material: &Material, priced: &[Priced], front: &[usize], (of, work): (&str, &str)) -> Table {
     let unit = material
         .runs
         .iter()
@@ -266,10 +312,15 @@ fn table(material: &Material, priced: &[Priced], front: &[usize], of: &str) -> T
         "steps [1]",
         "on the front",
     ];
+    let cost = format!("{} [1]", format::measure(work));
+    let head: Vec<&str> = match work {
+        RUN_TIME => head.to_vec(),
+        _ => head.into_iter().chain([cost.as_str()]).collect(),
+    };
     let mut table = Table::new(&head);
     for (index, point) in priced.iter().enumerate() {
         let steps = point.run.counters.iter().find(|(name, _)| name == "steps");
-        table.rows.push(vec![
+        let mut row = vec![
             Cell::Words(selection::label(material.study, point.run)),
             point.error.computed.into(),
             point.error.expected.into(),
@@ -277,7 +328,11 @@ fn table(material: &Material, priced: &[Priced], front: &[usize], of: &str) -> T
             Cell::Number(point.run.timing.wall),
             steps.map(|(_, count)| *count as f64).into(),
             Cell::Words(if front.contains(&index) { "yes" } else { "no" }.to_owned()),
-        ]);
+        ];
+        if work != RUN_TIME {
+            row.push(Cell::Number(point.cost));
+        }
+        table.rows.push(row);
     }
     table
 }

@@ -36,6 +36,12 @@ pub enum ExpectationSpec {
     Monotone(MonotoneSpec),
     /// A scalar of some points is greater than, less than or equal to that of others.
     Compare(CompareSpec),
+    /// A scalar grows along an axis like a power of it.
+    Scaling(ScalingSpec),
+    /// Every selected run completes, or diverges.
+    Status(StatusSpec),
+    /// The place on an axis at which a scalar leaves a band lies where a reference says.
+    Limit(LimitSpec),
 }
 
 /// What every expectation may carry.
@@ -136,6 +142,50 @@ pub struct CompareSpec {
     pub common: Common,
 }
 
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct ScalingSpec {
+    pub of: String,
+    /// Axis along which it grows.
+    pub over: String,
+    /// The exponent expected.
+    pub is: Fraction,
+    /// Largest difference from it.
+    pub within: Fraction,
+    #[serde(flatten)]
+    pub common: Common,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct StatusSpec {
+    /// The ends admitted. A run that diverges where it may is no failure.
+    pub is: OneOrMore<EndingSpec>,
+    #[serde(flatten)]
+    pub common: Common,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum EndingSpec {
+    Completed,
+    Diverged,
+}
+
+/// A run that diverges is outside of the band, and no failure.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct LimitSpec {
+    pub of: String,
+    pub above: Option<AnyQuantity>,
+    pub below: Option<AnyQuantity>,
+    /// Axis along which it leaves the band.
+    pub over: String,
+    /// Name of the reference for the place.
+    pub against: String,
+    /// Relative distance that the values of the axis on both sides may have from the reference.
+    pub within: Fraction,
+    #[serde(flatten)]
+    pub common: Common,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RelationSpec {
@@ -158,6 +208,8 @@ pub enum FigureSpec {
     Profile(ProfileSpec),
     /// A scalar over an axis, mean over seeds, references beside.
     Response(ResponseSpec),
+    /// The place on an axis at which a scalar leaves a band, over another axis, reference beside.
+    Limit(LimitFigureSpec),
     /// Pictures of the grains of one point, coloured by speed.
     Snapshots(SnapshotsSpec),
 }
@@ -203,6 +255,8 @@ pub struct RunTimeAgainstErrorSpec {
     pub of: String,
     /// Name of the reference.
     pub against: String,
+    /// `counters.NAME`, the same on every machine, or `timings.cpu` in place of the run time.
+    pub work: Option<String>,
     #[serde(flatten)]
     pub caption: Caption,
 }
@@ -222,6 +276,21 @@ pub struct ResponseSpec {
     /// References and published data to draw beside.
     #[serde(default)]
     pub against: Vec<BesideSpec>,
+    #[serde(flatten)]
+    pub caption: Caption,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct LimitFigureSpec {
+    pub of: String,
+    pub above: Option<AnyQuantity>,
+    pub below: Option<AnyQuantity>,
+    /// Axis along which it leaves the band.
+    pub over: String,
+    /// Name of the reference for the place.
+    pub against: String,
+    /// Axis over which the place is drawn.
+    pub across: String,
     #[serde(flatten)]
     pub caption: Caption,
 }

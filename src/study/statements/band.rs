@@ -1,10 +1,11 @@
 //! Bounds and identifiers of a statement.
 
 use super::Reader;
-use crate::study::model::Band;
+use crate::study::model::{Band, Limit};
 use crate::study::spec::quantity::AnyQuantity;
-use crate::study::spec::statement::ValueSpec;
+use crate::study::spec::statement::{Common, LimitSpec, ValueSpec};
 use crate::study::units::Dimension;
+use kynch_sim::scene::ObservableKind::Scalar;
 
 impl Reader<'_, '_> {
     /// Bounds of a `value` expectation in SI units.
@@ -91,6 +92,29 @@ impl Reader<'_, '_> {
                 );
                 band
             }
+        }
+    }
+
+    /// A band that is left along an axis, with the reference for the place.
+    pub(super) fn limit(&mut self, spec: &LimitSpec) -> Limit {
+        let unit = self.observable("of", &spec.of, &[Scalar]);
+        let bounds = ValueSpec {
+            of: spec.of.clone(),
+            is: None,
+            within: None,
+            above: spec.above,
+            below: spec.below,
+            common: Common::default(),
+        };
+        let band = self.band(&bounds, unit);
+        self.numeric_axis("over", &spec.over);
+        self.reference(&spec.against, None);
+        Limit {
+            of: spec.of.clone(),
+            band,
+            over: spec.over.clone(),
+            against: spec.against.clone(),
+            within: spec.within.0,
         }
     }
 

@@ -16,12 +16,13 @@ pub use calibrated::calibrated;
 pub use selection::admitted;
 
 use super::axes::WrittenAxis;
-use super::model::{Check, Comparison, Expectation, Figure, FigureKind, Plan, Work};
-use super::names::observables;
+use super::model::{Check, Comparison, Ending, Expectation, Figure, FigureKind, Limit, Plan, Work};
+use super::names::{is_measured_work, measures_of_work, observables};
 use super::nearest::advice;
 use super::problem::Problems;
 use super::shape::{Place, Shapes};
-use super::spec::statement::{Caption, Common, ExpectationSpec, FigureSpec};
+use super::spec::quantity::Fraction;
+use super::spec::statement::{Caption, Common, EndingSpec, ExpectationSpec, FigureSpec, LimitSpec};
 use super::yaml::{Key, Node, Value};
 
 /// The table in which scenes keep their grains.
@@ -188,7 +189,10 @@ pub fn observe(
         | Check::Error { of, .. }
         | Check::Order { of, .. }
         | Check::Monotone { of, .. }
-        | Check::Compare(Comparison { of, .. }) => of,
+        | Check::Scaling { of, .. }
+        | Check::Limit(Limit { of, .. })
+        | Check::Compare(Comparison { of, .. }) => Some(of),
+        Check::Status { .. } => None,
     });
     let of_figures = figures.iter().flat_map(|figure| match &figure.kind {
         FigureKind::TimeSeries { of, .. } => of.clone(),
@@ -196,10 +200,11 @@ pub fn observe(
         | FigureKind::RunTimeAgainstError { of, .. }
         | FigureKind::Response { of, .. }
         | FigureKind::Profile { of, .. } => vec![of.clone()],
+        FigureKind::Limit { limit, .. } => vec![limit.of.clone()],
         FigureKind::Snapshots { .. } => vec![SNAPSHOTS.to_owned()],
     });
-    for name in of_checks.cloned().chain(of_figures) {
-        if !observe.contains(&name) {
+    for name in of_checks.flatten().cloned().chain(of_figures) {
+        if !observe.contains(&name) && !is_measured_work(&name) {
             observe.push(name);
         }
     }
@@ -263,7 +268,7 @@ impl Reader<'_, '_> {
             ExpectationSpec::Order(spec) => {
                 self.observable("of", &spec.of, &[Scalar]);
                 self.reference(&spec.against, Some(&spec.of));
-                self.numeric_axis(&spec.over);
+                self.numeric_axis("over", &spec.over);
                 self.above_zero("within", spec.within.0);
                 let (is, within) = (spec.is.0, spec.within.0);
                 (
@@ -279,7 +284,7 @@ impl Reader<'_, '_> {
             }
             ExpectationSpec::Monotone(spec) => {
                 self.observable("of", &spec.of, &[Scalar]);
-                self.numeric_axis(&spec.over);
+                self.numeric_axis("over", &spec.over);
                 (
                     spec.common,
                     Check::Monotone {
@@ -294,6 +299,27 @@ impl Reader<'_, '_> {
                 self.observable("of", &spec.of, &[Scalar]);
                 let comparison = self.comparison(&spec);
                 (spec.common, Check::Compare(comparison))
+            }
+            ExpectationSpec::Scaling(spec) => {
+                self.observable("of", &spec.of, &[Scalar]);
+                self.numeric_axis("over", &spec.over);
+                self.above_zero("within", spec.within.0);
+                let (is, within) = (spec.is.0, spec.within.0);
+                let (of, over) = (spec.of, spec.over);
+                (spec.common, Check::Scaling { of, over, is, within })
+            }
+            ExpectationSpec::Status(spec) => {
+                let ending = |ending: &EndingSpec| match ending {
+                    EndingSpec::Completed => Ending::Completed,
+                    EndingSpec::Diverged => Ending::Diverged,
+                };
+                let is = spec.is.0.iter().map(ending).collect();
+                (spec.common, Check::Status { is })
+            }
+            ExpectationSpec::Limit(spec) => {
+                self.above_zero("within", spec.within.0);
+                let limit = self.limit(&spec);
+                (spec.common, Check::Limit(limit))
             }
         };
         (
@@ -328,7 +354,7 @@ impl Reader<'_, '_> {
             FigureSpec::ErrorAgainstResolution(spec) => {
                 self.observable("of", &spec.of, &[Scalar, Series]);
                 self.reference(&spec.against, Some(&spec.of));
-                self.numeric_axis(&spec.over);
+                self.numeric_axis("over", &spec.over);
                 let group = spec.caption.group.clone();
                 let (of, against, over) = (spec.of, spec.against, spec.over);
                 (
@@ -344,12 +370,17 @@ impl Reader<'_, '_> {
             FigureSpec::RunTimeAgainstError(spec) => {
                 self.observable("of", &spec.of, &[Scalar, Series]);
                 self.reference(&spec.against, Some(&spec.of));
+                if let Some(work) = spec.work.as_deref().filter(|work| !is_measured_work(work)) {
+                    let message = format!("`{work}` is no measure of work");
+                    self.fault("work", message, advice(work, &measures_of_work()));
+                }
                 let group = spec.caption.group.clone();
                 (
                     spec.caption,
                     FigureKind::RunTimeAgainstError {
                         of: spec.of,
                         against: spec.against,
+                        work: spec.work,
                         group,
                     },
                 )
@@ -361,7 +392,7 @@ impl Reader<'_, '_> {
             }
             FigureSpec::Response(spec) => {
                 let unit = self.observable("of", &spec.of, &[Scalar]);
-                self.numeric_axis(&spec.over);
+                self.numeric_axis("over", &spec.over);
                 let against = self.beside(&spec, unit);
                 let group = spec.caption.group.clone();
                 let (of, over) = (spec.of, spec.over);
@@ -374,6 +405,21 @@ impl Reader<'_, '_> {
                         against,
                     },
                 )
+            }
+            FigureSpec::Limit(spec) => {
+                let (of, over, against) = (spec.of, spec.over, spec.against);
+                let limit = self.limit(&LimitSpec {
+                    of,
+                    above: spec.above,
+                    below: spec.below,
+                    over,
+                    against,
+                    within: Fraction(0.0),
+                    common: Common::default(),
+                });
+                let (across, group) = (spec.across, spec.caption.group.clone());
+                self.numeric_axis("across", &across);
+                (spec.caption, FigureKind::Limit { limit, across, group })
             }
             FigureSpec::Snapshots(spec) => {
                 self.observable("snapshots", SNAPSHOTS, &[Profile]);

@@ -6,7 +6,7 @@ use serde_json::Value as Schema;
 use super::{Reader, distinct};
 use crate::study::comparable;
 use crate::study::model::{AxisValue, Norm};
-use crate::study::names::{observables, references};
+use crate::study::names::{is_measured_work, observables, references, work_unit};
 use crate::study::nearest::advice;
 use crate::study::published::published;
 use crate::study::spec::statement::NormSpec;
@@ -47,6 +47,9 @@ impl Reader<'_, '_> {
         let scenes = self.scenes();
         if scenes.is_empty() {
             return None;
+        }
+        if is_measured_work(name) && kinds.contains(&ObservableKind::Scalar) {
+            return work_unit(name);
         }
         let offered: Vec<Observable> = scenes
             .iter()
@@ -173,7 +176,7 @@ impl Reader<'_, '_> {
     }
 
     /// Checks that a name is an axis of numbers with at least two values.
-    pub(super) fn numeric_axis(&mut self, name: &str) {
+    pub(super) fn numeric_axis(&mut self, field: &str, name: &str) {
         if !self.context.complete {
             return;
         }
@@ -184,7 +187,7 @@ impl Reader<'_, '_> {
             .map(|axis| axis.axis.name.as_str())
             .collect();
         let Some(axis) = self.context.axes.iter().find(|axis| axis.axis.name == name) else {
-            return self.fault("over", format!("there is no axis `{name}`"), advice(name, &names));
+            return self.fault(field, format!("there is no axis `{name}`"), advice(name, &names));
         };
         let numbers = axis
             .axis
@@ -193,13 +196,13 @@ impl Reader<'_, '_> {
             .all(|value| matches!(value, AxisValue::Number(_)));
         if !numbers {
             self.fault(
-                "over",
+                field,
                 format!("the axis `{name}` does not hold numbers"),
                 "choose one that does",
             );
         } else if axis.axis.values.len() < 2 {
             self.fault(
-                "over",
+                field,
                 format!("the axis `{name}` has a single value"),
                 "two are needed at least",
             );

@@ -206,6 +206,14 @@ impl Bed {
         0.5 * self.smallest / self.interaction.time_step
     }
 
+    /// Place of a grain whose spin or position is no number.
+    pub fn astray_spin(&self) -> Option<usize> {
+        (0..self.grains.moving).find(|grain| {
+            let (x, w) = (self.grains.position(*grain), self.grains.angular_velocity(*grain));
+            !(x.norm().is_finite() && w.norm().is_finite())
+        })
+    }
+
     fn astray(&self, limit: f64) -> Astray {
         let sound = |grain: &usize| {
             let place = self.grains.position(*grain);

@@ -21,6 +21,8 @@ pub struct Pair<N, T, R> {
     pub continued: bool,
     history: Vector<f64>,
     trial: Vector<f64>,
+    /// Evaluations of the force so far.
+    pub evaluations: u64,
 }
 
 impl<N: NormalLaw, T: TangentialLaw, R: RollingLaw> Pair<N, T, R> {
@@ -33,6 +35,7 @@ impl<N: NormalLaw, T: TangentialLaw, R: RollingLaw> Pair<N, T, R> {
             continued: false,
             history: Vector::zeros(),
             trial: Vector::zeros(),
+            evaluations: 0,
         }
     }
 
@@ -58,6 +61,7 @@ impl<N: NormalLaw, T: TangentialLaw, R: RollingLaw> Pair<N, T, R> {
 
 impl<N: NormalLaw, T: TangentialLaw, R: RollingLaw> Forces for Pair<N, T, R> {
     fn evaluate(&mut self, bodies: &Bodies, elapsed: f64, accelerations: &mut Accelerations) {
+        self.evaluations += 1;
         accelerations.linear.fill(Vec3::zeros());
         accelerations.angular.fill(Vec3::zeros());
         accelerations.linear[0] = self.gravity;

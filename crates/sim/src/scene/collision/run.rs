@@ -43,8 +43,9 @@ fn follow<I: Integrator>(impact: &Impact, control: &Control) -> Result<Outcome, 
             time_step: dt,
         };
         record.steps = step;
+        record.evaluations = pair.evaluations;
         let passed = touch.normal.dot(&pair.touch(&before.0).normal) < 0.0;
-        if let Some(reason) = astray(impact, &touch, passed, step as f64 * dt) {
+        if let Some(reason) = astray(impact, (&before.0, &bodies), passed, step as f64 * dt, &touch) {
             return Err(failed(FailureKind::Diverged, reason, record.outcome()));
         }
         record.deepen(&pair, &between, &touch);
@@ -61,7 +62,12 @@ fn follow<I: Integrator>(impact: &Impact, control: &Control) -> Result<Outcome, 
             ));
         }
     }
-    let reason = format!("still in contact after {LONGEST} contact times");
+    let reason = format!(
+        "grains 0 and 1 are still in contact after {LONGEST} contact times, t = {:.6e} s, at {} and {}",
+        most as f64 * dt,
+        place(&bodies.position[0]),
+        place(&bodies.position[1])
+    );
     Err(failed(FailureKind::Diverged, reason, record.outcome()))
 }
 
@@ -73,13 +79,35 @@ fn failed(kind: FailureKind, reason: String, partial: Outcome) -> Box<Failure> {
     })
 }
 
-fn astray(impact: &Impact, touch: &Touch, passed: bool, time: f64) -> Option<String> {
+/// Why the motion makes no sense any more: what, which body, where, when.
+fn astray(
+    impact: &Impact,
+    (before, after): (&Bodies, &Bodies),
+    passed: bool,
+    time: f64,
+    touch: &Touch,
+) -> Option<String> {
     let (overlap, radius) = (touch.contact.overlap, 0.5 * impact.diameter());
     let sound = overlap.is_finite() && touch.contact.rate.is_finite() && touch.slip.norm().is_finite();
     if !sound {
-        return Some(format!("the motion is not finite at t = {time:.6e} s"));
+        let body = after.position.iter().position(|place| !place.norm().is_finite());
+        let body = body.unwrap_or(0);
+        return Some(format!(
+            "the motion of grain {body} is not finite at t = {time:.6e} s; a step before it was at {}",
+            place(&before.position[body])
+        ));
     }
-    (passed || overlap > radius).then(|| format!("the bodies pass through each other at t = {time:.6e} s"))
+    (passed || overlap > radius).then(|| {
+        format!(
+            "grains 0 and 1 pass through each other at t = {time:.6e} s, at {} and {}",
+            place(&after.position[0]),
+            place(&after.position[1])
+        )
+    })
+}
+
+fn place(x: &Vec3) -> String {
+    format!("({:.4e}, {:.4e}, {:.4e}) m", x.x, x.y, x.z)
 }
 
 /// The motion between two instants, from states and accelerations at both: cubic.
@@ -132,6 +160,8 @@ struct Record<'a> {
     impact: &'a Impact<'a>,
     dt: f64,
     steps: u64,
+    /// Evaluations of the contact's force.
+    evaluations: u64,
     every: u64,
     /// Time, overlap, normal force, tangential force.
     rows: Vec<[f64; 4]>,
@@ -163,6 +193,7 @@ impl<'a> Record<'a> {
             impact,
             dt,
             steps: 0,
+            evaluations: 0,
             every: (steps / ROWS).ceil().max(1.0) as u64,
             rows: Vec::new(),
             start: totals(pair, bodies),
@@ -255,6 +286,7 @@ impl<'a> Record<'a> {
             counters: Counters {
                 steps: self.steps,
                 grain_steps: self.steps,
+                grain_pairs: self.evaluations,
                 ..Counters::default()
             },
         }

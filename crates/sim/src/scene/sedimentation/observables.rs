@@ -43,6 +43,7 @@ const ALWAYS: &[Row] = &[
     ("time_step", "s", Scalar, "step of the run"),
     ("contact_time", "s", Scalar, "shortest contact time that the step was picked for"),
     ("grains_fallen_out", "1", Scalar, "number of grains that left the box"),
+    ("pairs_per_search", "1", Scalar, "pairs looked at in one search for near ones, mean over the run"),
     ("thickness", "m", Series, "thickness of the settled bed"),
     ("porosity", "1", Series, "porosity of the bed's central slice by exact volumes"),
     ("settled_share", "1", Series, "share of the grains that have settled"),

@@ -38,8 +38,12 @@ pub fn run(scene: &Sedimentation, control: &Control) -> Result<Outcome, Box<Fail
     };
     let limits = limits(scene);
     let dt = limits.time_step;
-    let rows = (scene.duration / ROW).ceil().clamp(ROWS[0], ROWS[1]);
     let steps = (scene.duration / dt).ceil().max(1.0) as u64;
+    // No row without a step since the last one.
+    let rows = (scene.duration / ROW)
+        .ceil()
+        .clamp(ROWS[0], ROWS[1])
+        .min(steps as f64);
     let mut watch = Watch::new(scene, bed, limits.contact_time, dt);
     watch.look(0);
     let mut motion = Mover::start(scene.integrator, &mut watch.bed);
@@ -269,13 +273,29 @@ impl<'a> Watch<'a> {
     fn diverged(&self, done: u64) -> Option<String> {
         let time = done as f64 * self.dt;
         let (_, measures, deepest) = self.rows.last()?;
+        if !measures.kinetic_energy.is_finite() || self.bed.astray_spin().is_some() {
+            let grain = self.bed.astray_spin().unwrap_or(0);
+            return Some(format!(
+                "the motion is not finite at t = {time:.6e} s: {}",
+                self.whereabouts(grain)
+            ));
+        }
         if *deepest > DEEPEST {
-            let who = self
-                .bed
-                .deepest_contact()
-                .map_or(String::new(), |([i, j], depth)| {
-                    format!("; deepest now: grains {i} and {j} at {:.1} %", 100.0 * depth)
-                });
+            let touching = self.bed.deepest_contact().filter(|(_, depth)| *depth > 0.0);
+            let who = touching.map_or_else(
+                || format!("; fastest now: {}", self.fastest()),
+                |([i, j], depth)| {
+                    let at = self.bed.grains.places()[i as usize] as usize;
+                    let x = self.bed.grains.position(at);
+                    format!(
+                        "; deepest now: grains {i} and {j} at {:.1} %, at ({:.4e}, {:.4e}, {:.4e}) m",
+                        100.0 * depth,
+                        x.x,
+                        x.y,
+                        x.z
+                    )
+                },
+            );
             return Some(format!(
                 "an overlap of {:.1} % of the diameter before t = {time:.6e} s: stiffer contacts or a shorter step \
                  are needed{who}",
@@ -286,10 +306,27 @@ impl<'a> Watch<'a> {
         let most = 2.0 * self.scene.load() * self.scene.container.height;
         (measures.kinetic_energy > most && most > 0.0).then(|| {
             format!(
-                "the kinetic energy {:.3e} J at t = {time:.6e} s is over twice the work of gravity",
-                measures.kinetic_energy
+                "the kinetic energy {:.3e} J at t = {time:.6e} s is over twice the work of gravity; fastest: {}",
+                measures.kinetic_energy,
+                self.fastest()
             )
         })
+    }
+
+    fn fastest(&self) -> String {
+        let speed = |grain: &usize| self.bed.grains.velocity(*grain).norm();
+        let fastest = (0..self.bed.grains.moving).max_by(|a, b| speed(a).total_cmp(&speed(b)));
+        fastest.map_or_else(|| "none".to_owned(), |grain| self.whereabouts(grain))
+    }
+
+    /// `grain 7 at (…) m with (…) m/s`
+    fn whereabouts(&self, grain: usize) -> String {
+        let grains = &self.bed.grains;
+        let (x, v) = (grains.position(grain), grains.velocity(grain));
+        format!(
+            "grain {} at ({:.4e}, {:.4e}, {:.4e}) m with ({:.3e}, {:.3e}, {:.3e}) m/s",
+            grains.number[grain], x.x, x.y, x.z, v.x, v.y, v.z
+        )
     }
 
     /// Grains beyond the walls.
@@ -376,6 +413,8 @@ impl<'a> Watch<'a> {
         add("time_step", "s", self.dt);
         add("contact_time", "s", self.contact_time);
         add("grains_fallen_out", "1", self.fallen_out() as f64);
+        let work = &self.bed.work;
+        add("pairs_per_search", "1", work.looked_at as f64 / work.lists as f64);
         scalars
     }
 

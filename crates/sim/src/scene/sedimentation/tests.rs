@@ -463,3 +463,57 @@ fn sleepers_leave_the_bed_as_it_is_and_most_of_the_work_undone() {
     assert!((asleep - awake).abs() < 0.02, "{asleep} for {awake}");
     assert!(few < all * 2 / 3, "{few} of {all}");
 }
+
+#[test]
+fn a_run_beyond_its_step_says_when_where_and_which_grain() {
+    let integrators = [
+        IntegratorChoice::VelocityVerlet,
+        IntegratorChoice::Gear5,
+        IntegratorChoice::Gear6,
+        IntegratorChoice::RungeKutta4,
+    ];
+    for integrator in integrators {
+        let mut scene = box_of_grains();
+        scene.classes[0].number = 40;
+        scene.container = Container {
+            width: 1e-3,
+            depth: 1e-3,
+            height: 3e-3,
+            ..scene.container
+        };
+        let scene = Sedimentation {
+            integrator,
+            time_step: Some(1e-3),
+            unsafe_time_step: true,
+            duration: 1.0,
+            snapshots: 0,
+            ..scene
+        };
+        let failure = run(&Scene::Sedimentation(scene), &Control::SILENT).unwrap_err();
+        for part in ["t = ", "grain", "at ("] {
+            assert!(
+                failure.reason.contains(part),
+                "{integrator:?}: {}",
+                failure.reason
+            );
+        }
+        assert!(
+            !failure.reason.contains("NaN"),
+            "{integrator:?}: {}",
+            failure.reason
+        );
+    }
+}
+
+#[test]
+fn a_few_long_steps_make_as_many_rows() {
+    let mut scene = box_of_grains();
+    scene.classes[0].number = 1;
+    scene.time_step = Some(1e-4);
+    scene.unsafe_time_step = true;
+    scene.duration = 7e-4;
+    let outcome = run(&Scene::Sedimentation(scene), &Control::SILENT).unwrap();
+    let times = &outcome.tables[0].columns[0].values;
+    assert_eq!(times.len(), 8);
+    assert!(times.windows(2).all(|pair| pair[1] > pair[0]), "{times:?}");
+}
