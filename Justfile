@@ -28,6 +28,10 @@ verify store="store":
 bench:
     cargo bench -p kynch-sim --bench '*'
 
+# speed of beds beside LAMMPS and LIGGGHTS, which it installs into target/peers
+peers *cases:
+    benches/peers.sh {{cases}}
+
 # format the sources
 fmt:
     cargo fmt --all
