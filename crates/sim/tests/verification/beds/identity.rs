@@ -64,15 +64,16 @@ fn two_grains_with_friction_do_the_same_to_the_last_bit_however_they_are_listed(
 
 #[test]
 fn how_near_pairs_are_found_and_how_often_is_no_part_of_the_result() {
+    // Later on collisions have multiplied the rounding of the sums a million times.
     for tangential in 0..4 {
         let mut setup = falling(tangential);
-        let reference = setup.after(2000);
+        let reference = setup.after(1000);
         assert!(reference.work.lists > 20 && reference.contacts().pairs.len() > 20);
         for listing in LISTINGS {
             setup.listing = listing;
-            let bed = setup.after(2000);
+            let bed = setup.after(1000);
             let worst = difference(&states(&bed), &states(&reference), SCALES);
-            assert!(worst < 1e-7, "{worst:e} {listing:?}");
+            assert!(worst < 1e-9, "{worst:e} {listing:?}");
         }
     }
 }
