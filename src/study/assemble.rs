@@ -12,6 +12,7 @@ use super::problem::{Problems, StudyError};
 use super::shape::{Place, Shapes};
 use super::statements::{self, Context};
 use super::units::{self, Dimension};
+use super::work::Snapshots;
 use super::yaml::{self, Node, Value};
 
 const MOST_SEEDS: u64 = 10_000;
@@ -31,6 +32,7 @@ pub fn parse(path: &Path, text: &str) -> Result<Study, StudyError> {
 
 fn build(path: &Path, root: &Node, problems: &mut Problems) -> Option<Study> {
     let shapes = Shapes::new();
+    let snapshots = Snapshots::beside(path);
     if !matches!(root.value, Value::Map(_)) {
         let message = format!("a study is a map of `name: value`, this is {}", root.kind());
         problems.add(&root.span, "", message, "begin with `question:`");
@@ -65,12 +67,12 @@ fn build(path: &Path, root: &Node, problems: &mut Problems) -> Option<Study> {
     let seeds = seeds(root, problems);
     let axes = (scenes_hold && axes_hold).then(|| axes::read(root, &written, &shapes, problems));
     let Some(axes) = axes.flatten() else {
-        check_the_rest(root, &written, &usable, &shapes, problems);
+        check_the_rest(root, &written, &usable, &shapes, &snapshots, problems);
         return None;
     };
     let works: BTreeMap<String, Work> = written
         .iter()
-        .filter_map(|scene| Some((scene.name.clone(), plan::base(scene)?)))
+        .filter_map(|scene| Some((scene.name.clone(), plan::base(scene, &snapshots)?)))
         .collect();
     let exclusions = exclusions(root, &written, &axes, problems);
     let seeds = seeds.unwrap_or_else(|| vec![1]);
@@ -80,6 +82,7 @@ fn build(path: &Path, root: &Node, problems: &mut Problems) -> Option<Study> {
         seeds: &seeds,
         exclusions: &exclusions,
         shapes: &shapes,
+        snapshots: &snapshots,
     };
     let plan = plan::expand(&ingredients, problems);
     let context = Context {
@@ -123,6 +126,7 @@ fn check_the_rest(
     written: &[WrittenScene],
     usable: &[bool],
     shapes: &Shapes,
+    snapshots: &Snapshots,
     problems: &mut Problems,
 ) {
     for (scene, _) in written.iter().zip(usable).filter(|(_, usable)| **usable) {
@@ -132,6 +136,7 @@ fn check_the_rest(
             seeds: &[1],
             exclusions: &[],
             shapes,
+            snapshots,
         };
         plan::expand(&ingredients, problems);
     }

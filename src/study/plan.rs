@@ -10,7 +10,7 @@ use super::path;
 use super::problem::Problems;
 use super::shape::{Place, Shapes};
 use super::spec::scene::SceneSpec;
-use super::work;
+use super::work::{self, Snapshots};
 use super::yaml::Node;
 
 /// Most points that a study may have.
@@ -26,12 +26,13 @@ pub struct Ingredients<'a> {
     pub seeds: &'a [u64],
     pub exclusions: &'a [(Range<usize>, Exclusion)],
     pub shapes: &'a Shapes,
+    pub snapshots: &'a Snapshots,
 }
 
 /// A scene without its axes: tells which observables there are.
-pub fn base(scene: &WrittenScene) -> Option<Work> {
+pub fn base(scene: &WrittenScene, snapshots: &Snapshots) -> Option<Work> {
     let spec: SceneSpec = serde_json::from_value(scene.node.json()).ok()?;
-    Some(work::work(&work::completed(spec)))
+    Some(work::work(&work::completed(spec, snapshots)))
 }
 
 /// Every point, scenes first, the first axis slowest, seeds fastest.
@@ -223,7 +224,7 @@ fn point(
         Err(error) => return problems.add(&scene.key, &scene.path, error.to_string(), "correct the scene"),
     };
     let twice = given_twice(&spec);
-    let spec = work::completed(spec);
+    let spec = work::completed(spec, ingredients.snapshots);
     let work = work::work(&spec);
     let label = axes
         .iter()

@@ -231,3 +231,107 @@ figures:
         "`mean_speed` is a series, this needs a scalar"
     );
 }
+
+/// A bed of two dozen grains that comes to rest.
+const SMALL: &str = "
+question: Does a bed form?
+scene:
+  sedimentation:
+    grains: {diameter: 250 um, density: 2460, number: 24}
+    container: {width: 1 mm, depth: 1 mm, height: 2 mm}
+    normal: {hertz_viscoelastic: {young_modulus: 1 MPa, poisson_ratio: 0.29, damping_time: 20 us}}
+    fluid: {still: {density: 1000, viscosity: 1 mPa s}}
+    tangential: {mindlin: {friction: 0.3, poisson_ratio: 0.29}}
+    arrangement: random
+    duration: 1 s
+    snapshots: 2
+";
+
+fn computed(study: &Study, store: &Store) -> kynch::store::model::Run {
+    let summary = kynch::runner::run(study, store, &Options::default()).expect("a run");
+    assert_eq!(summary.completed, 1, "{summary:?}");
+    let id = kynch::runner::identify(&study.plan.points[0]);
+    store.load(&[id]).expect("a stored run").remove(0)
+}
+
+#[test]
+fn a_bed_goes_on_where_its_stored_snapshot_left_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let store = Store::open(&folder.path().join("store")).expect("a store");
+    let first = parsed(SMALL);
+    let before = computed(&first, &store);
+    let stored = |inside: &str| {
+        let entries = std::fs::read_dir(folder.path().join("store").join(inside)).expect("tables");
+        let mut paths: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
+        paths.retain(|path| inside == "series" || path.to_string_lossy().contains("snapshots"));
+        paths
+    };
+    let bed = folder.path().join("bed.parquet");
+    let put = |table: &Path| std::fs::copy(table, &bed).expect("a copy");
+    let kept = stored("profiles").remove(0);
+    put(&kept);
+
+    let study_file = folder.path().join("again.yaml");
+    let text = SMALL
+        .replace("random", "{snapshot: {file: bed.parquet}}")
+        .replace("duration: 1 s", "duration: 20 ms");
+    let again = |text: &str| study::parse(&study_file, text);
+    let second = again(&text).unwrap_or_else(|error| panic!("{error}"));
+    let after = computed(&second, &store);
+    let of = |run: &kynch::store::model::Run, name: &str| {
+        let mut scalars = run.scalars.iter();
+        scalars
+            .find(|scalar| scalar.name == name)
+            .unwrap_or_else(|| panic!("no {name}"))
+            .value
+    };
+    assert_eq!(of(&before, "settled_share"), 1.0);
+    assert_eq!(of(&after, "settled_share"), 1.0);
+    assert!(of(&before, "settling_time") > 0.02);
+    assert!(
+        of(&after, "settling_time") < 2e-3,
+        "{}",
+        of(&after, "settling_time")
+    );
+    let way = of(&after, "centre_of_mass") - of(&before, "centre_of_mass");
+    assert!(way.abs() < 1e-3 * 250e-6, "{way:e}");
+
+    let messages = |text: &str| -> Vec<String> {
+        let error = again(text).expect_err("a faulty study");
+        let problems = error.problems.iter();
+        problems
+            .map(|problem| format!("{}: {}", problem.field, problem.message))
+            .collect()
+    };
+    const AT: &str = "scene.sedimentation.arrangement.snapshot.file";
+    assert_eq!(
+        messages(&text.replace("number: 24", "number: 25")),
+        [format!(
+            "{AT}: the snapshot has 24 grains of class 0, the scene 25"
+        )]
+    );
+    assert_eq!(
+        messages(&text.replace("bed.parquet", "no.parquet")),
+        [format!("{AT}: there is no file `no.parquet`")]
+    );
+    // Another table in the same place is another point.
+    let id = |study: &Study| kynch::runner::identify(&study.plan.points[0]);
+    let known = id(&second);
+    assert_eq!(id(&again(&text).expect("the same study")), known);
+    let mut newer = stored("profiles");
+    newer.retain(|path| *path != kept);
+    put(&newer[0]);
+    assert_ne!(id(&again(&text).expect("a study")), known);
+    // Other tables and other files hold no grains.
+    put(&stored("series")[0]);
+    assert_eq!(
+        messages(&text),
+        [format!("{AT}: `bed.parquet` has no column `class`")]
+    );
+    std::fs::write(&bed, "no table").expect("a file");
+    let wrong = messages(&text);
+    assert!(
+        wrong[0].starts_with(&format!("{AT}: `bed.parquet` is no Parquet table: ")),
+        "{wrong:?}"
+    );
+}

@@ -1,5 +1,6 @@
 //! The sedimentation scene as a study file writes it.
 
+use kynch_sim::scene::Snapshot;
 use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
 
@@ -144,6 +145,25 @@ pub enum ArrangementSpec {
     Lattice,
     /// A dense random packing from the floor up.
     Packed(PackedSpec),
+    /// Where the last instant of a stored table `snapshots` left them, with their velocities; contact
+    /// histories and spins start afresh.
+    Snapshot(Box<SnapshotSpec>),
+}
+
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+pub struct SnapshotSpec {
+    /// Parquet table with the columns time, class, x, y, z, radius, speed_x, speed_y and speed_z of the
+    /// stored table `snapshots`. A relative path begins at the folder of the study, else at the working
+    /// directory. Fixed grains of a floor (class -1) are left out.
+    pub file: String,
+    /// BLAKE3 of the contents of the file: other contents are another point.
+    #[serde(skip_deserializing, skip_serializing_if = "Option::is_none")]
+    #[schemars(skip)]
+    pub blake3: Option<String>,
+    /// What the file holds, once it is read.
+    #[serde(skip)]
+    #[schemars(skip)]
+    pub contents: Option<Snapshot>,
 }
 
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]

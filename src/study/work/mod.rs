@@ -2,6 +2,9 @@
 
 mod collision;
 mod sedimentation;
+mod snapshot;
+
+pub use snapshot::Snapshots;
 
 use kynch_sim::scene::{
     Column, ConstantPorosityBlock, Coupling, Drag, Fluid, Grains, Hydrostatics, KernelChoice, Medium,
@@ -13,9 +16,17 @@ use super::faults::{Fault, faults};
 use super::model::{Rehearsal, RehearsalEnding, Work};
 use super::spec::quantity::{CoefficientSpec, SoundSpeedSpec, StiffnessSpec, TimeStepSpec};
 use super::spec::scene::*;
+use super::spec::sedimentation::{ArrangementSpec, SedimentationSpec};
 
-/// Fills in what follows from other fields: the lattice of a block.
-pub fn completed(mut spec: SceneSpec) -> SceneSpec {
+/// Fills in what follows from other fields and files: the lattice of a block, the grains of a snapshot.
+pub fn completed(mut spec: SceneSpec, snapshots: &Snapshots) -> SceneSpec {
+    if let SceneSpec::Sedimentation(SedimentationSpec {
+        arrangement: ArrangementSpec::Snapshot(snapshot),
+        ..
+    }) = &mut spec
+    {
+        snapshots.fill(snapshot);
+    }
     if let SceneSpec::ConstantPorosityBlock(block) = &mut spec {
         let pitch = cubic_pitch(block.grains.diameter.0, block.porosity.0);
         let width = block.column.width.0;

@@ -2,7 +2,7 @@
 
 use kynch_sim::scene::{
     Arrangement, Cohesion, Container, Detection, Dimensions, Floor, GrainClass, GrainDrag, Lift, Medium,
-    Sedimentation, Sides, SlicePorosity, StillFluid, Until, Voidage,
+    Sedimentation, Sides, SlicePorosity, Snapshot, StillFluid, Until, Voidage,
 };
 
 use super::collision::{integrator, normal, rolling, tangential};
@@ -28,6 +28,7 @@ pub fn sedimentation(spec: &SedimentationSpec) -> Sedimentation {
             ArrangementSpec::Packed(packed) => Arrangement::Packed {
                 solids_fraction: packed.solids_fraction.0,
             },
+            ArrangementSpec::Snapshot(written) => Arrangement::Snapshot(snapshot(written)),
         },
         normal: normal(&spec.normal),
         tangential: tangential(&spec.tangential),
@@ -65,6 +66,14 @@ pub fn sedimentation(spec: &SedimentationSpec) -> Sedimentation {
         seed: 1,
         snapshots: spec.snapshots,
     }
+}
+
+/// What has been read, or that nothing has been.
+fn snapshot(spec: &SnapshotSpec) -> Snapshot {
+    spec.contents.clone().unwrap_or_else(|| Snapshot {
+        file: spec.file.clone(),
+        grains: Err(format!("`{}` has not been read", spec.file)),
+    })
 }
 
 fn classes(spec: &SedimentationSpec) -> &[GrainClassSpec] {

@@ -59,12 +59,16 @@ fn grains_in_words(scene: &Sedimentation, description: &mut Description) {
         Dimensions::Two => "spheres whose centres stay in a plane",
         Dimensions::Three => "spheres in space",
     };
-    let arrangement = match scene.arrangement {
+    let arrangement = match &scene.arrangement {
         Arrangement::Random => "start at random, without overlap, over the whole box".to_owned(),
         Arrangement::Lattice => "start on a cubic lattice shaken by a hundredth of its pitch".to_owned(),
         Arrangement::Packed { solids_fraction } => {
             format!("start packed at random to a solids fraction of {solids_fraction}")
         }
+        Arrangement::Snapshot(snapshot) => format!(
+            "start where the last instant of `{}` left them, without spin, contacts without a history",
+            snapshot.file
+        ),
     };
     description
         .active

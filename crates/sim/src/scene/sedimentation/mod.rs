@@ -11,13 +11,14 @@ mod population;
 mod room;
 mod run;
 mod settling;
+mod snapshot;
 mod start;
 mod step;
 mod warnings;
 
 pub use model::{
-    Arrangement, Cohesion, Container, Detection, Dimensions, Floor, GrainClass, GrainDrag, Lift,
-    Sedimentation, Sides, SlicePorosity, StillFluid, Until, Voidage,
+    Arrangement, Cohesion, Container, Detection, Dimensions, Floor, GrainClass, GrainDrag, Lift, Placed,
+    Sedimentation, Sides, SlicePorosity, Snapshot, StillFluid, Until, Voidage,
 };
 
 pub(super) use check::check;

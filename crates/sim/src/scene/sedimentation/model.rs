@@ -1,5 +1,8 @@
 //! The sedimentation scene as plain data in SI units.
 
+use std::sync::Arc;
+
+use crate::math::Vec3;
 use crate::scene::{IntegratorChoice, Medium, Normal, Rolling, Tangential};
 
 /// Grains fall through a fluid onto the floor of a box and form a bed.
@@ -95,7 +98,7 @@ pub enum Floor {
     Grains { diameter: f64 },
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Arrangement {
     /// At random without overlap, uniform over the whole box.
     Random,
@@ -103,6 +106,31 @@ pub enum Arrangement {
     Lattice,
     /// A dense random packing of this solids fraction [-], from the floor up.
     Packed { solids_fraction: f64 },
+    /// Where the grains of an earlier run were.
+    Snapshot(Snapshot),
+}
+
+/// Grains as an earlier run left them. Spins and the histories of contacts are not among them: no
+/// grain turns at the start, and every tangential spring starts relaxed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Snapshot {
+    /// The file they come from, as it is called in messages.
+    pub file: String,
+    /// The grains, or why they cannot be read.
+    pub grains: Result<Arc<[Placed]>, String>,
+}
+
+/// A moving grain of a snapshot. Its density is that of its class.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placed {
+    /// Position of its class among the classes of the scene.
+    pub class: usize,
+    /// [m]
+    pub position: Vec3,
+    /// [m/s]
+    pub velocity: Vec3,
+    /// [m]
+    pub radius: f64,
 }
 
 /// Van der Waals attraction, Alvim (2016) eq. 49 with the second bracket squared.

@@ -1,6 +1,7 @@
 //! Whether the grains of a scene fit their box.
 
 use super::model::{Arrangement, Dimensions, Sedimentation, Sides};
+use super::snapshot;
 use crate::scene::check::{List, millimetres};
 
 /// Densest packing of spheres that can be made, and of discs [-].
@@ -80,10 +81,11 @@ fn rounded_up(length: f64) -> f64 {
 }
 
 fn arranged(scene: &Sedimentation, list: &mut List) -> bool {
-    match scene.arrangement {
+    match &scene.arrangement {
         Arrangement::Random => true,
         Arrangement::Lattice => on_a_lattice(scene, list),
-        Arrangement::Packed { solids_fraction } => packed(scene, solids_fraction, list),
+        Arrangement::Packed { solids_fraction } => packed(scene, *solids_fraction, list),
+        Arrangement::Snapshot(snapshot) => snapshot::holds(scene, snapshot, list),
     }
 }
 

@@ -6,6 +6,7 @@ use super::model::{
     Arrangement, Detection, Dimensions, Floor, GrainDrag, Lift, Sedimentation, Sides, SlicePorosity,
     StillFluid, Voidage,
 };
+use super::snapshot;
 use super::step::limits;
 use crate::arrangement::{self, Fault, Region};
 use crate::bed::{
@@ -28,22 +29,7 @@ const PERMITTIVITY: f64 = 78.4;
 /// # Errors
 /// Grains that do not find room.
 pub fn start(scene: &Sedimentation) -> Result<Bed, Fault> {
-    let mut random = Random::new(scene.seed);
-    let bodies = bodies(scene, &mut random);
-    let radii: Vec<f64> = bodies.iter().map(|(body, _)| body.radius).collect();
-    let positions = positions(scene, &radii, &mut random)?;
-    let moving: Vec<Grain> = bodies
-        .into_iter()
-        .zip(positions)
-        .map(|((body, class), position)| Grain {
-            body,
-            class,
-            position: position + lift_of_floor(scene),
-            velocity: Vec3::zeros(),
-            angular_velocity: Vec3::zeros(),
-        })
-        .collect();
-    let grains = Grains::new(&moving, &floor_grains(scene));
+    let grains = Grains::new(&moving_grains(scene)?, &floor_grains(scene));
     let fluid = scene.fluid.medium();
     let surroundings = Surroundings {
         gravity: scene.gravity,
@@ -69,6 +55,40 @@ pub fn start(scene: &Sedimentation) -> Result<Bed, Fault> {
     Ok(if scene.sleeping { bed.with_sleeping() } else { bed })
 }
 
+fn moving_grains(scene: &Sedimentation) -> Result<Vec<Grain>, Fault> {
+    let mut random = Random::new(scene.seed);
+    let region = Region {
+        width: scene.container.width,
+        depth: scene.depth(),
+        height: scene.container.height,
+        periodic: scene.container.sides == Sides::Periodic,
+        dimensions: match scene.dimensions {
+            Dimensions::Two => arrangement::Dimensions::Two,
+            Dimensions::Three => arrangement::Dimensions::Three,
+        },
+    };
+    let bodies = bodies(scene, &mut random);
+    let radii: Vec<f64> = bodies.iter().map(|(body, _)| body.radius).collect();
+    let positions = match &scene.arrangement {
+        Arrangement::Random => arrangement::random(&region, &radii, &mut random),
+        Arrangement::Lattice => arrangement::lattice(&region, &radii, &mut random),
+        Arrangement::Packed { solids_fraction } => {
+            arrangement::packed(&region, &radii, *solids_fraction, &mut random)
+        }
+        Arrangement::Snapshot(snapshot) => return Ok(snapshot::grains(scene, snapshot)),
+    }?;
+    let placed = bodies.into_iter().zip(positions);
+    Ok(placed
+        .map(|((body, class), position)| Grain {
+            body,
+            class,
+            position: position + lift_of_floor(scene),
+            velocity: Vec3::zeros(),
+            angular_velocity: Vec3::zeros(),
+        })
+        .collect())
+}
+
 /// Sizes and classes of all moving grains; sizes of a spread class are drawn in turn.
 fn bodies(scene: &Sedimentation, random: &mut Random) -> Vec<(Body, u16)> {
     let mut bodies = Vec::new();
@@ -82,26 +102,6 @@ fn bodies(scene: &Sedimentation, random: &mut Random) -> Vec<(Body, u16)> {
         }
     }
     bodies
-}
-
-fn positions(scene: &Sedimentation, radii: &[f64], random: &mut Random) -> Result<Vec<Vec3>, Fault> {
-    let region = Region {
-        width: scene.container.width,
-        depth: scene.depth(),
-        height: scene.container.height,
-        periodic: scene.container.sides == Sides::Periodic,
-        dimensions: match scene.dimensions {
-            Dimensions::Two => arrangement::Dimensions::Two,
-            Dimensions::Three => arrangement::Dimensions::Three,
-        },
-    };
-    match scene.arrangement {
-        Arrangement::Random => arrangement::random(&region, radii, random),
-        Arrangement::Lattice => arrangement::lattice(&region, radii, random),
-        Arrangement::Packed { solids_fraction } => {
-            arrangement::packed(&region, radii, solids_fraction, random)
-        }
-    }
 }
 
 /// Grains start above the tops of those that make the floor.

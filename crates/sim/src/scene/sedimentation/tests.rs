@@ -517,3 +517,103 @@ fn a_few_long_steps_make_as_many_rows() {
     assert_eq!(times.len(), 8);
     assert!(times.windows(2).all(|pair| pair[1] > pair[0]), "{times:?}");
 }
+
+/// The end of a run, as a scene can start from it.
+fn left_by(outcome: &crate::outcome::Outcome) -> Snapshot {
+    let table = outcome.tables.iter().find(|table| table.name == "snapshots");
+    let columns = &table.expect("snapshots").columns;
+    let column = |name: &str| {
+        let found = columns.iter().find(|column| column.name == name);
+        found.expect("a column").values.as_slice()
+    };
+    let last = *column("time").last().expect("a row");
+    let vector = |names: [&str; 3], row: usize| {
+        let [x, y, z] = names.map(|name| column(name)[row]);
+        crate::math::Vec3::new(x, y, z)
+    };
+    let rows = (0..column("time").len()).filter(|row| column("time")[*row] == last);
+    Snapshot {
+        file: "bed.parquet".to_owned(),
+        grains: Ok(rows
+            .map(|row| Placed {
+                class: column("class")[row] as usize,
+                position: vector(["x", "y", "z"], row),
+                velocity: vector(["speed_x", "speed_y", "speed_z"], row),
+                radius: column("radius")[row],
+            })
+            .collect()),
+    }
+}
+
+#[test]
+fn a_settled_bed_stays_where_its_snapshot_left_it() {
+    let mut scene = box_of_grains();
+    scene.classes[0].number = 60;
+    scene.classes[0].largest_diameter = Some(300e-6);
+    (scene.container.width, scene.container.depth) = (1.2e-3, 1.2e-3);
+    scene.container.height = 3e-3;
+    scene.duration = 0.5;
+    let height = |outcome: &crate::outcome::Outcome| {
+        let mut scalars = outcome.scalars.iter();
+        let height = scalars.find(|scalar| scalar.name == "centre_of_mass");
+        height.expect("a centre of mass").value
+    };
+    let first = run(&Scene::Sedimentation(scene.clone()), &Control::SILENT).expect("a settled bed");
+    scene.arrangement = Arrangement::Snapshot(left_by(&first));
+    // Sizes are those of the snapshot, not drawn again.
+    scene.seed = 7;
+    scene.duration = 1000.0 * limits(&scene).time_step;
+    assert_eq!(faults(scene.clone()), Vec::<String>::new());
+    let again = run(&Scene::Sedimentation(scene.clone()), &Control::SILENT).expect("a bed at rest");
+    let way = (height(&again) - height(&first)).abs() / 250e-6;
+    println!("{way:e}");
+    assert!(way < 1e-3, "{way:e}");
+}
+
+#[test]
+fn a_snapshot_of_another_scene_is_refused() {
+    let mut scene = box_of_grains();
+    scene.classes[0].number = 1;
+    let grain = Placed {
+        class: 0,
+        position: crate::math::Vec3::new(1e-3, 1e-3, 1e-3),
+        velocity: crate::math::Vec3::zeros(),
+        radius: 125e-6,
+    };
+    let reported = |grains: &[Placed]| {
+        let mut scene = scene.clone();
+        scene.arrangement = Arrangement::Snapshot(Snapshot {
+            file: "bed.parquet".to_owned(),
+            grains: Ok(grains.into()),
+        });
+        let faults = check(&Scene::Sedimentation(scene));
+        for fault in &faults {
+            assert_eq!(fault.path, "arrangement.snapshot.file");
+        }
+        faults.into_iter().map(|fault| fault.message).collect::<String>()
+    };
+    assert_eq!(reported(&[grain]), "");
+    assert_eq!(
+        reported(&[grain, grain]),
+        "the snapshot has 2 grains of class 0, the scene 1"
+    );
+    assert_eq!(
+        reported(&[Placed { class: 1, ..grain }]),
+        "the snapshot has grains of class 1, counted from 0; the scene has 1 class"
+    );
+    assert_eq!(
+        reported(&[Placed {
+            radius: 120e-6,
+            ..grain
+        }]),
+        "the snapshot has a grain of class 0 with a diameter of 0.24 mm, the class has 0.25 mm"
+    );
+    let deep = Placed {
+        position: crate::math::Vec3::new(1e-3, 1e-3, 1e-4),
+        ..grain
+    };
+    assert_eq!(
+        reported(&[deep]),
+        "grain 0 of the snapshot lies outside the box: x 1 mm, y 1 mm, z 0.1 mm"
+    );
+}
