@@ -194,12 +194,14 @@ pub fn porosity_interior(scene: &Sedimentation, bed: &Bed, heights: [f64; 2]) ->
     lines.porosity(spheres, heights)
 }
 
-/// Porosity [-] by areas of all discs in a bed of this thickness [m], from its lowest to its highest point.
-pub fn whole_area_porosity(scene: &Sedimentation, bed: &Bed, thickness: f64) -> f64 {
+/// Porosity [-] by areas of all settled discs in a bed of this thickness [m], from its lowest to its
+/// highest point. Grains that still fall are not part of it.
+pub fn whole_area_porosity(scene: &Sedimentation, bed: &Bed, settled: &Settled, thickness: f64) -> f64 {
     if thickness <= 0.0 {
         return f64::NAN;
     }
     let discs: f64 = (0..bed.grains.moving)
+        .filter(|grain| settled.grains[*grain])
         .map(|grain| PI * bed.grains.radius(grain).powi(2))
         .sum();
     1.0 - discs / (scene.container.width * thickness)

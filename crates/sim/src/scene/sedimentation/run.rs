@@ -383,7 +383,9 @@ impl<'a> Watch<'a> {
         let mut add = |name, unit, value| scalars.push(Scalar { name, unit, value });
         if self.scene.dimensions == Dimensions::Two {
             add("area_porosity", "1", last.area_porosity);
-            let whole = whole_area_porosity(self.scene, &self.bed, last.thickness);
+            let whole = self.settled.as_ref().map_or(f64::NAN, |settled| {
+                whole_area_porosity(self.scene, &self.bed, settled, last.thickness)
+            });
             add("area_porosity_whole", "1", whole);
             add("porosity_drop", "1", self.porosity_drop());
         } else if self.scene.container.sides == Sides::Walls {
