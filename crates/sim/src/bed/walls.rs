@@ -153,12 +153,10 @@ impl WideWork for WallSweep<'_> {
             let touches = zero.below(meeting.overlap);
             let touch = Touch::new(&couple, &meeting, [&grain, &still]);
             let interaction = self.interaction;
-            let (reaction, displacement) = interaction.laws.react(
-                &touch,
-                remembered(history),
-                self.elapsed,
-                interaction.stopping_time(),
-            );
+            let (reaction, displacement) =
+                interaction
+                    .laws
+                    .react(&touch, remembered(history), self.elapsed, interaction.time_step);
             *live = remember(history, touches, displacement);
             let mut force = Vector::select(touches, reaction.force, Vector::zeros());
             let torque = Vector::select(touches, reaction.torques[0], Vector::zeros());

@@ -105,10 +105,9 @@ impl Oracle {
     fn react(&mut self, bed: &Bed, names: [u32; 2], touch: &Touch, elapsed: f64) -> (Vec3, [Vec3; 2]) {
         let history = self.histories.get(&names).copied().unwrap_or(Vector::zeros());
         let interaction = &bed.interaction;
-        let (reaction, history) =
-            interaction
-                .laws
-                .react(touch, history, elapsed, interaction.stopping_time());
+        let (reaction, history) = interaction
+            .laws
+            .react(touch, history, elapsed, interaction.time_step);
         self.histories.insert(names, history);
         self.contacts += 1;
         (reaction.force.into(), reaction.torques.map(Vec3::from))

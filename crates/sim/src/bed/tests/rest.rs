@@ -27,7 +27,7 @@ fn forces(bed: &Bed, walls: &[Wall]) -> BTreeMap<[u32; 2], Vec3> {
         let (reaction, _) = bed
             .interaction
             .laws
-            .react(touch, history, 0.0, bed.interaction.stopping_time());
+            .react(touch, history, 0.0, bed.interaction.time_step);
         (names, Vec3::from(reaction.force))
     };
     let pairs = contacts.pairs.iter().map(|pair| {
