@@ -7,7 +7,7 @@ use kynch::store::Store;
 use kynch::study::model::{AxisValue, Study, Work};
 use kynch::study::{self};
 use kynch_sim::scene::{
-    Arrangement, Cohesion, Detection, Dimensions, Floor, GrainDrag, IntegratorChoice, Lift, Scene,
+    Arrangement, Charge, Cohesion, Detection, Dimensions, Floor, GrainDrag, IntegratorChoice, Lift, Scene,
     Sedimentation, Sides, SlicePorosity, StillFluid, Until, Voidage,
 };
 
@@ -67,7 +67,7 @@ scene:
     normal: {linear_spring_dashpot: {stiffness: 13 N/m, restitution: 0.3}}
     tangential: {haff_werner: {damping: 10, friction: 0.3}}
     cohesion: {van_der_waals: {hamaker: 65 zJ, walls: false}}
-    charge: {coulomb: {charge: -2 fC}}
+    charge: {coulomb: {charge: -2 fC, relative_permittivity: 78.4}}
     drag: none
     voidage: none
     porosity: areas
@@ -139,7 +139,12 @@ fn every_choice_arrives_in_si_units() {
         cut_off: 1e-3,
         walls: false,
     };
-    assert_eq!((bed.cohesion, bed.charge), (Some(cohesion), Some(-2e-15)));
+    let charge = Charge {
+        charge: -2e-15,
+        relative_permittivity: 78.4,
+        cut_off: 1e-3,
+    };
+    assert_eq!((bed.cohesion, bed.charge), (Some(cohesion), Some(charge)));
     assert_eq!((bed.drag, bed.voidage), (GrainDrag::None, Voidage::None));
     assert_eq!((bed.porosity, bed.lift), (SlicePorosity::Areas, Lift::Magnus));
     assert!(matches!(bed.fluid, StillFluid::Column(medium) if medium.viscosity == 1e-3));

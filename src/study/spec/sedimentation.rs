@@ -206,6 +206,11 @@ pub enum ChargeSpec {
 pub struct CoulombSpec {
     /// Of every grain.
     pub charge: Charge,
+    /// Permittivity of the fluid over that of the vacuum, 78.4 for water at 25 °C.
+    pub relative_permittivity: Fraction,
+    /// Share of a grain's weight below which the force is left out.
+    #[serde(default = "one_thousandth")]
+    pub cut_off: Fraction,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, Serialize, JsonSchema)]

@@ -1,8 +1,8 @@
 //! From the written sedimentation to the plain data that runs.
 
 use kynch_sim::scene::{
-    Arrangement, Cohesion, Container, Detection, Dimensions, Floor, GrainClass, GrainDrag, Lift, Medium,
-    Sedimentation, Sides, SlicePorosity, Snapshot, StillFluid, Until, Voidage,
+    Arrangement, Charge, Cohesion, Container, Detection, Dimensions, Floor, GrainClass, GrainDrag, Lift,
+    Medium, Sedimentation, Sides, SlicePorosity, Snapshot, StillFluid, Until, Voidage,
 };
 
 use super::collision::{integrator, normal, rolling, tangential};
@@ -36,7 +36,11 @@ pub fn sedimentation(spec: &SedimentationSpec) -> Sedimentation {
         cohesion: cohesion(&spec.cohesion),
         charge: match &spec.charge {
             ChargeSpec::None => None,
-            ChargeSpec::Coulomb(law) => Some(law.charge.0),
+            ChargeSpec::Coulomb(law) => Some(Charge {
+                charge: law.charge.0,
+                relative_permittivity: law.relative_permittivity.0,
+                cut_off: law.cut_off.0,
+            }),
         },
         drag: drag(spec.drag),
         voidage: voidage(spec.voidage),

@@ -17,8 +17,8 @@ pub use collision::{BinaryCollision, IntegratorChoice, Material, Normal, Partner
 pub use describe::describe;
 pub use observables::observables;
 pub use sedimentation::{
-    Arrangement, Cohesion, Container, Detection, Dimensions, Floor, GrainClass, GrainDrag, Lift, Placed,
-    Sedimentation, Sides, SlicePorosity, Snapshot, StillFluid, Until, Voidage,
+    Arrangement, Charge, Cohesion, Container, Detection, Dimensions, Floor, GrainClass, GrainDrag, Lift,
+    Placed, Sedimentation, Sides, SlicePorosity, Snapshot, StillFluid, Until, Voidage,
 };
 
 use crate::outcome::{Control, Failure, Outcome};

@@ -93,6 +93,17 @@ fn container(scene: &Sedimentation, list: &mut List) -> bool {
     sound
 }
 
+/// Whether there is a weight that a cut-off can be a share of.
+fn weighs(scene: &Sedimentation, path: &str, list: &mut List) -> bool {
+    let weightless = scene.gravity == 0.0;
+    if weightless {
+        let message = "without gravity the attraction is never cut off".to_owned();
+        let help = "give `gravity`, however little: `cut_off` is a share of the weight";
+        list.add(path, message, help);
+    }
+    !weightless
+}
+
 /// Cohesion, charge, fluid and gravity.
 fn forces(scene: &Sedimentation, list: &mut List) -> bool {
     let mut sound = true;
@@ -101,15 +112,14 @@ fn forces(scene: &Sedimentation, list: &mut List) -> bool {
         sound &= list.positive(&path("hamaker"), cohesion.hamaker);
         sound &= list.positive(&path("smallest_gap"), cohesion.smallest_gap);
         sound &= list.positive(&path("cut_off"), cohesion.cut_off);
-        if scene.gravity == 0.0 {
-            let message = "without gravity the attraction is never cut off".to_owned();
-            let help = "give `gravity`, however little: `cut_off` is a share of the weight";
-            list.add(&path("cut_off"), message, help);
-            sound = false;
-        }
+        sound &= weighs(scene, &path("cut_off"), list);
     }
-    if let Some(charge) = scene.charge {
-        sound &= list.finite("charge.coulomb.charge", charge);
+    if let Some(charge) = &scene.charge {
+        let path = |name: &str| format!("charge.coulomb.{name}");
+        sound &= list.finite(&path("charge"), charge.charge);
+        sound &= list.positive(&path("relative_permittivity"), charge.relative_permittivity);
+        sound &= list.positive(&path("cut_off"), charge.cut_off);
+        sound &= weighs(scene, &path("cut_off"), list);
     }
     let (name, medium) = match &scene.fluid {
         StillFluid::Still(medium) => ("still", medium),

@@ -240,9 +240,12 @@ fn numbers(scene: &Sedimentation, limits: &Limits, description: &mut Description
         limits.contact_time / limits.time_step,
         "1",
     );
-    let repulsion = scene
-        .charge
-        .map(|charge| 8.987_551_8e9 * (charge / (2.0 * grain.radius)).powi(2));
+    let repulsion = scene.charge.map(|charged| {
+        charged
+            .law()
+            .force(2.0 * grain.radius, charged.charge, charged.charge)
+            .abs()
+    });
     if let Some(force) = repulsion.filter(|_| weight > 0.0) {
         add("Coulomb's force in contact over weight", force / weight, "1");
     }

@@ -17,8 +17,8 @@ mod step;
 mod warnings;
 
 pub use model::{
-    Arrangement, Cohesion, Container, Detection, Dimensions, Floor, GrainClass, GrainDrag, Lift, Placed,
-    Sedimentation, Sides, SlicePorosity, Snapshot, StillFluid, Until, Voidage,
+    Arrangement, Charge, Cohesion, Container, Detection, Dimensions, Floor, GrainClass, GrainDrag, Lift,
+    Placed, Sedimentation, Sides, SlicePorosity, Snapshot, StillFluid, Until, Voidage,
 };
 
 pub(super) use check::check;

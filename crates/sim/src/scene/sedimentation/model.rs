@@ -18,8 +18,8 @@ pub struct Sedimentation {
     pub rolling: Rolling,
     /// `None` leaves cohesion out.
     pub cohesion: Option<Cohesion>,
-    /// Charge of every grain [C]; `None` leaves Coulomb's force out.
-    pub charge: Option<f64>,
+    /// `None` leaves Coulomb's force out.
+    pub charge: Option<Charge>,
     pub drag: GrainDrag,
     pub voidage: Voidage,
     pub porosity: SlicePorosity,
@@ -144,6 +144,17 @@ pub struct Cohesion {
     pub cut_off: f64,
     /// Whether walls attract as well.
     pub walls: bool,
+}
+
+/// One charge on every grain; walls carry none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Charge {
+    /// [C]
+    pub charge: f64,
+    /// ε_r of the fluid between the grains [-].
+    pub relative_permittivity: f64,
+    /// The force is left out where it falls below this share of a grain's weight [-].
+    pub cut_off: f64,
 }
 
 /// Drag of an isolated grain.

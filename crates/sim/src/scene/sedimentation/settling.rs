@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-use super::model::{GrainDrag, Sedimentation, StillFluid, Voidage};
+use super::model::{Charge, GrainDrag, Sedimentation, StillFluid, Voidage};
+use crate::cohesion::Coulomb;
 use crate::contact::Body;
 use crate::drag::{Dallavalle, DiFelice, DragLaw, SchillerNaumann, Stokes};
 use crate::math::bisect;
@@ -12,6 +13,14 @@ impl StillFluid {
     pub fn medium(&self) -> &Medium {
         match self {
             StillFluid::Still(medium) | StillFluid::Column(medium) => medium,
+        }
+    }
+}
+
+impl Charge {
+    pub fn law(&self) -> Coulomb {
+        Coulomb {
+            relative_permittivity: self.relative_permittivity,
         }
     }
 }

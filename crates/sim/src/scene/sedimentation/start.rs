@@ -9,20 +9,13 @@ use super::model::{
 use super::snapshot;
 use super::step::limits;
 use crate::arrangement::{self, Fault, Region};
-use crate::bed::{
-    Attraction, Bed, Charge, Grain, Grains, Interaction, Listing, Porosity, Surroundings, Wall,
-};
-use crate::cohesion::{Coulomb, VanDerWaals};
+use crate::bed::{self, Attraction, Bed, Grain, Grains, Interaction, Listing, Porosity, Surroundings, Wall};
+use crate::cohesion::VanDerWaals;
 use crate::contact::{Body, ContactLaws, Couple};
 use crate::coupling::slices::Measure;
 use crate::drag::{AnyDrag, AnyVoidage, SphereDrag};
 use crate::math::{Random, Vec3};
 use crate::neighbours::Search;
-
-/// Share of a grain's weight under which a charge is left out; the cut-off of cohesion where there is one.
-const CHARGE_CUT_OFF: f64 = 1e-3;
-/// ε_r of the fluid between charges: water.
-const PERMITTIVITY: f64 = 78.4;
 
 /// Everything a scene starts from.
 ///
@@ -201,16 +194,13 @@ fn attraction(scene: &Sedimentation) -> Option<Attraction> {
             )
         }),
         walls: scene.cohesion.is_some_and(|cohesion| cohesion.walls),
-        charge: scene.charge.map(|charge| {
-            let law = Coulomb {
-                relative_permittivity: PERMITTIVITY,
-            };
-            let at_contact = law.force(1.0_f64, charge, charge).abs();
-            let share = scene.cohesion.map_or(CHARGE_CUT_OFF, |cohesion| cohesion.cut_off);
-            Charge {
+        charge: scene.charge.map(|charged| {
+            let law = charged.law();
+            let at_a_metre = law.force(1.0_f64, charged.charge, charged.charge).abs();
+            bed::Charge {
                 law,
-                charge,
-                cut_off_gap: (at_contact / (share * least)).sqrt(),
+                charge: charged.charge,
+                cut_off_gap: (at_a_metre / (charged.cut_off * least)).sqrt(),
             }
         }),
     })
