@@ -3,6 +3,7 @@
 mod check;
 mod collision;
 mod describe;
+mod divergence;
 mod observables;
 mod passage;
 mod profiles;
@@ -11,6 +12,7 @@ mod run_prescribed;
 mod run_sph;
 mod sedimentation;
 mod setup;
+mod snapshots;
 mod suspension;
 
 pub use check::check;

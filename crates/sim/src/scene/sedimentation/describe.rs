@@ -61,6 +61,7 @@ fn grains_in_words(scene: &Sedimentation, description: &mut Description) {
     };
     let arrangement = match &scene.arrangement {
         Arrangement::Random => "start at random, without overlap, over the whole box".to_owned(),
+        Arrangement::Even => "start at random, without overlap, evenly over the whole box".to_owned(),
         Arrangement::Lattice => "start on a cubic lattice shaken by a hundredth of its pitch".to_owned(),
         Arrangement::Packed { solids_fraction } => {
             format!("start packed at random to a solids fraction of {solids_fraction}")

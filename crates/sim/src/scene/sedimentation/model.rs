@@ -102,6 +102,9 @@ pub enum Floor {
 pub enum Arrangement {
     /// At random without overlap, uniform over the whole box.
     Random,
+    /// At random without overlap, but evenly: the concentration is the same everywhere over lengths of many
+    /// grains, and that of each class by itself.
+    Even,
     /// A cubic lattice over the whole box, shaken by a hundredth of the pitch.
     Lattice,
     /// A dense random packing of this solids fraction [-], from the floor up.

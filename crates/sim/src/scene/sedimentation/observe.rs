@@ -8,6 +8,7 @@ use crate::bed::Bed;
 use crate::coupling::permeability;
 use crate::coupling::slices::{solid_volume_between, sphere_volume_between};
 use crate::math::Vec3;
+use crate::scene::divergence::kinetic_energy;
 
 /// Speed of a settled grain, over the terminal speed [-].
 const SETTLED_SPEED: f64 = 0.01;
@@ -141,17 +142,13 @@ impl Measures {
         let mut mass = 0.0;
         for grain in moving {
             let (own, z) = (grains.mass(grain), grains.position(grain).z);
-            let (speed, spin) = (
-                grains.velocity(grain).norm(),
-                grains.angular_velocity(grain).norm(),
-            );
             mass += own;
             measures.centre_of_mass += own * z;
-            measures.mean_speed += speed / count;
-            measures.kinetic_energy += 0.5 * (own * speed * speed + grains.inertia(grain) * spin * spin);
+            measures.mean_speed += grains.velocity(grain).norm() / count;
             measures.top_height = measures.top_height.max(z + grains.radius(grain));
         }
         measures.centre_of_mass /= mass;
+        measures.kinetic_energy = kinetic_energy(bed);
         measures
     }
 

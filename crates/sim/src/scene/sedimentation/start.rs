@@ -64,6 +64,7 @@ fn moving_grains(scene: &Sedimentation) -> Result<Vec<Grain>, Fault> {
     let radii: Vec<f64> = bodies.iter().map(|(body, _)| body.radius).collect();
     let positions = match &scene.arrangement {
         Arrangement::Random => arrangement::random(&region, &radii, &mut random),
+        Arrangement::Even => arrangement::even(&region, &radii, &mut random),
         Arrangement::Lattice => arrangement::lattice(&region, &radii, &mut random),
         Arrangement::Packed { solids_fraction } => {
             arrangement::packed(&region, &radii, *solids_fraction, &mut random)
