@@ -116,6 +116,10 @@ pub enum Drag {
     /// Dallavalle with the Di Felice voidage function.
     DiFelice,
     CoulsonRichardson,
+    /// Beetstra, for beds of equal spheres.
+    Beetstra,
+    /// Beetstra shared out among grains of several sizes.
+    BeetstraCello,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
