@@ -23,7 +23,7 @@ fn particles_per_side(point: &Point) -> f64 {
         Scene::ConstantPorosityBlock(block) => (&block.fluid, block.column, block.grains),
         Scene::BinaryCollision(_) | Scene::Sedimentation(_) | Scene::Suspension(_) => {
             panic!("a scene with a fluid")
-        },
+        }
     };
     let Fluid::Sph(fluid) = fluid else {
         panic!("a particle fluid")

@@ -28,7 +28,13 @@ pub fn even(region: &Region, radii: &[f64], random: &mut Random) -> Result<Vec<V
         return Ok(Vec::new());
     }
     let fraction = within_limit(region, radii)?;
-    let mut positions = relaxed(region, radii, fraction, points(region, radii.len(), random), random)?;
+    let mut positions = relaxed(
+        region,
+        radii,
+        fraction,
+        points(region, radii.len(), random),
+        random,
+    )?;
     let share = region.measure() / radii.len() as f64;
     let distance = match region.dimensions {
         Dimensions::Two => share.sqrt(),

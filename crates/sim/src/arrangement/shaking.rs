@@ -29,9 +29,10 @@ pub(super) fn shake(
         for grain in 0..radii.len() {
             let place = beside(region, radii[grain], &positions[grain], step, random);
             let strayed = region.nearest(place - anchors[grain]).norm_squared() > reach * reach;
-            let taken = strayed || levels.any_near(&place, radii[grain], |other| {
-                other != grain && touches(region, &place, radii[grain], &positions[other], radii[other])
-            });
+            let taken = strayed
+                || levels.any_near(&place, radii[grain], |other| {
+                    other != grain && touches(region, &place, radii[grain], &positions[other], radii[other])
+                });
             if !taken {
                 levels.displace(grain, &positions[grain], &place);
                 positions[grain] = place;

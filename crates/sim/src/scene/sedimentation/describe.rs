@@ -153,6 +153,9 @@ fn drag(scene: &Sedimentation) -> Option<String> {
         GrainDrag::Stokes => "Stokes drag",
         GrainDrag::Dallavalle => "Dallavalle drag",
         GrainDrag::SchillerNaumann => "Schiller–Naumann drag",
+        GrainDrag::CoulsonRichardson => "Coulson–Richardson drag",
+        GrainDrag::Beetstra => "Beetstra drag",
+        GrainDrag::BeetstraCello => "Beetstra drag, shared out among the sizes after Cello",
     };
     let voidage = match scene.voidage {
         Voidage::None => "",

@@ -25,6 +25,8 @@ pub(super) use check::check;
 pub(super) use describe::describe;
 pub(super) use observables::observables;
 pub(super) use run::run;
+pub(super) use start::start;
+pub(super) use step::limits;
 
 #[cfg(test)]
 mod tests;

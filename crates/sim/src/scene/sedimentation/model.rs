@@ -160,13 +160,16 @@ pub struct Charge {
     pub cut_off: f64,
 }
 
-/// Drag of an isolated grain.
+/// Drag of an isolated grain; the last two hold their neighbours already.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GrainDrag {
     None,
     Stokes,
     Dallavalle,
     SchillerNaumann,
+    CoulsonRichardson,
+    Beetstra,
+    BeetstraCello,
 }
 
 /// What the neighbours make of it.

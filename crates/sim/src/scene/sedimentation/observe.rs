@@ -29,14 +29,7 @@ impl Settled {
     pub fn of(bed: &Bed, before: Option<&[Vec3]>, speed: f64) -> Settled {
         let grains = &bed.grains;
         let touching = bed.contacts();
-        let mut contacts = vec![0; grains.len()];
-        for &[i, j] in &touching.pairs {
-            contacts[i as usize] += 1;
-            contacts[j as usize] += 1;
-        }
-        for &(grain, _) in &touching.walls {
-            contacts[grain as usize] += 1;
-        }
+        let contacts = touching.numbers(grains.len());
         let quiet = |grain: usize| {
             let still = grains.velocity(grain).norm() < SETTLED_SPEED * speed;
             let number = grains.number[grain] as usize;

@@ -111,7 +111,9 @@ fn drag(drag: Drag) -> (GrainDrag, Voidage) {
         Drag::Dallavalle => (GrainDrag::Dallavalle, Voidage::None),
         Drag::SchillerNaumann => (GrainDrag::SchillerNaumann, Voidage::None),
         Drag::DiFelice => (GrainDrag::Dallavalle, Voidage::DiFelice),
-        Drag::CoulsonRichardson => (GrainDrag::None, Voidage::None),
+        Drag::CoulsonRichardson => (GrainDrag::CoulsonRichardson, Voidage::None),
+        Drag::Beetstra => (GrainDrag::Beetstra, Voidage::None),
+        Drag::BeetstraCello => (GrainDrag::BeetstraCello, Voidage::None),
     }
 }
 
