@@ -1,11 +1,11 @@
 //! A suspension in words and numbers.
 
-use super::model::Suspension;
-use crate::scene::Description;
+use super::model::{SuspendingFluid, Suspension};
+use crate::scene::{Description, sedimentation};
 
 pub fn describe(scene: &Suspension) -> Description {
-    Description {
-        grains: scene.grains(),
-        ..Description::default()
+    match scene.fluid {
+        SuspendingFluid::Column(_) => sedimentation::describe(&scene.as_sedimentation()),
+        SuspendingFluid::Sph(_) => Description::default(),
     }
 }
