@@ -3,6 +3,7 @@
 mod check;
 mod collision;
 mod describe;
+mod filtration;
 mod observables;
 mod passage;
 mod profiles;
@@ -15,10 +16,13 @@ mod setup;
 pub use check::check;
 pub use collision::{BinaryCollision, IntegratorChoice, Material, Normal, Partner, Rolling, Tangential};
 pub use describe::describe;
+pub use filtration::{
+    CakeLength, CakePermeability, Crossflow, Deposited, Feed, Filtrate, Filtration, Held, Resistance,
+};
 pub use observables::observables;
 pub use sedimentation::{
-    Arrangement, Charge, Cohesion, Container, Detection, Dimensions, Floor, GrainClass, GrainDrag, Lift,
-    Placed, Sedimentation, Sides, SlicePorosity, Snapshot, StillFluid, Until, Voidage,
+    Arrangement, Charge, Cohesion, Container, Detection, Dimensions, Floor, FloorGrains, GrainClass,
+    GrainDrag, Lift, Placed, Sedimentation, Sides, SlicePorosity, Snapshot, StillFluid, Until, Voidage,
 };
 
 use crate::outcome::{Control, Failure, Outcome};
@@ -30,6 +34,7 @@ pub enum Scene {
     ConstantPorosityBlock(ConstantPorosityBlock),
     BinaryCollision(BinaryCollision),
     Sedimentation(Sedimentation),
+    Filtration(Filtration),
 }
 
 impl Scene {
@@ -37,6 +42,7 @@ impl Scene {
     pub fn threads(&self) -> u32 {
         match self {
             Scene::Sedimentation(scene) => scene.threads,
+            Scene::Filtration(scene) => scene.bed.threads,
             Scene::SingleSphere(_) | Scene::ConstantPorosityBlock(_) | Scene::BinaryCollision(_) => 1,
         }
     }
@@ -323,6 +329,7 @@ pub fn run(scene: &Scene, control: &Control) -> Result<Outcome, Box<Failure>> {
         Scene::ConstantPorosityBlock(block) => setup::Settling::of_block(block),
         Scene::BinaryCollision(collision) => return collision::run(collision, control),
         Scene::Sedimentation(scene) => return sedimentation::run(scene, control),
+        Scene::Filtration(scene) => return filtration::run(scene, control),
     };
     match settling.sph() {
         Some(sph) => setup::with_law!(settling.drag, law => run_sph::run(&settling, sph, law, control)),

@@ -1,6 +1,8 @@
 //! What of a sedimentation scene cannot be simulated.
 
-use super::model::{Detection, Dimensions, Floor, GrainClass, Sedimentation, SlicePorosity, StillFluid};
+use super::model::{
+    Detection, Dimensions, Floor, FloorGrains, GrainClass, Sedimentation, SlicePorosity, StillFluid,
+};
 use super::room::fits;
 use super::step::{FEWEST_STEPS, Limits, limits, overdamped};
 use crate::contact::EffectiveMass;
@@ -9,6 +11,8 @@ use crate::scene::check::{List, millimetres};
 use crate::scene::collision::check_laws;
 
 const MOST_THREADS: u32 = 64;
+/// Layers of fixed grains that make a floor.
+const MOST_LAYERS: u32 = 10;
 /// Every class meets every other one when the step is picked.
 const MOST_CLASSES: usize = 64;
 
@@ -82,13 +86,27 @@ fn container(scene: &Sedimentation, list: &mut List) -> bool {
     if scene.dimensions == Dimensions::Three {
         sound &= list.positive("container.depth", container.depth);
     }
-    if let Floor::Grains { diameter } = container.floor {
-        sound &= list.positive("container.floor.grains.diameter", diameter);
-        if scene.dimensions == Dimensions::Three {
-            let message = "a floor of grains is known in two dimensions only".to_owned();
-            list.add("container.floor", message, "write `floor: flat`");
-            sound = false;
-        }
+    if let Floor::Grains(floor) = &container.floor {
+        sound &= floor_of_grains(floor, list);
+    }
+    sound
+}
+
+fn floor_of_grains(floor: &FloorGrains, list: &mut List) -> bool {
+    let path = |name: &str| format!("container.floor.grains.{name}");
+    let mut sound = list.positive(&path("diameter"), floor.diameter);
+    sound &= list.not_negative(&path("gap"), floor.gap);
+    if !(1..=MOST_LAYERS).contains(&floor.layers) {
+        let message = format!(
+            "`layers` is {}, it must lie between 1 and {MOST_LAYERS}",
+            floor.layers
+        );
+        list.add(
+            &path("layers"),
+            message,
+            "one or two hold grains of their own size",
+        );
+        sound = false;
     }
     sound
 }

@@ -81,12 +81,20 @@ fn grains_in_words(scene: &Sedimentation, description: &mut Description) {
     }
     let floor = match scene.container.floor {
         Floor::Flat => "a flat floor",
-        Floor::Grains { .. } => "a floor of fixed grains",
+        Floor::Grains(_) => "a floor of fixed grains",
     };
     match scene.container.sides {
         Sides::Walls => description.active.push(format!(
             "flat side walls and {floor} with the contact law of the grains"
         )),
+        Sides::PeriodicAlongX => {
+            description.active.push(format!(
+                "flat walls across y and {floor} with the contact law of the grains"
+            ));
+            description
+                .left_out
+                .push("walls across x: the box repeats itself along x".to_owned());
+        }
         Sides::Periodic => {
             description
                 .active

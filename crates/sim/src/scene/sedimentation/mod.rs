@@ -2,6 +2,7 @@
 
 mod check;
 mod describe;
+mod floor;
 mod growth;
 mod interior;
 mod model;
@@ -17,8 +18,8 @@ mod step;
 mod warnings;
 
 pub use model::{
-    Arrangement, Charge, Cohesion, Container, Detection, Dimensions, Floor, GrainClass, GrainDrag, Lift,
-    Placed, Sedimentation, Sides, SlicePorosity, Snapshot, StillFluid, Until, Voidage,
+    Arrangement, Charge, Cohesion, Container, Detection, Dimensions, Floor, FloorGrains, GrainClass,
+    GrainDrag, Lift, Placed, Sedimentation, Sides, SlicePorosity, Snapshot, StillFluid, Until, Voidage,
 };
 
 pub(super) use check::check;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::model::{Dimensions, GrainClass, Sedimentation};
+use super::model::{Dimensions, GrainClass, Sedimentation, Sides};
 use crate::contact::Body;
 
 impl GrainClass {
@@ -51,6 +51,15 @@ impl Sedimentation {
         match self.dimensions {
             Dimensions::Two => self.largest_diameter(),
             Dimensions::Three => self.container.depth,
+        }
+    }
+
+    /// Whether the box repeats itself along x, along y.
+    pub fn periodic(&self) -> [bool; 2] {
+        match self.container.sides {
+            Sides::Walls => [false; 2],
+            Sides::Periodic => [true; 2],
+            Sides::PeriodicAlongX => [true, false],
         }
     }
 

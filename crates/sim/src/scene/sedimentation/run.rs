@@ -335,14 +335,15 @@ impl<'a> Watch<'a> {
         let container = &self.scene.container;
         let floor = match container.floor {
             Floor::Flat => 0.0,
-            Floor::Grains { diameter } => -0.5 * diameter,
+            Floor::Grains(floor) => -0.5 * floor.diameter,
         };
+        let [along, across] = self.scene.periodic();
         let out = |grain: &usize| {
             let x = grains.position(*grain);
-            let beside = container.sides == Sides::Walls
-                && (x.x < 0.0
-                    || x.x > container.width
-                    || self.scene.dimensions == Dimensions::Three && (x.y < 0.0 || x.y > container.depth));
+            let beside = !along && (x.x < 0.0 || x.x > container.width)
+                || !across
+                    && self.scene.dimensions == Dimensions::Three
+                    && (x.y < 0.0 || x.y > container.depth);
             x.z < floor || beside
         };
         (0..grains.moving).filter(out).count()
@@ -392,7 +393,7 @@ impl<'a> Watch<'a> {
             let interior = porosity_interior(self.scene, &self.bed, last.slice);
             add("porosity_interior", "1", interior);
         }
-        if let Floor::Grains { .. } = self.scene.container.floor {
+        if let Floor::Grains(_) = self.scene.container.floor {
             add("floor_grain_diameter", "m", self.floor_grain_diameter());
         }
         add("porosity", "1", last.porosity);

@@ -2,14 +2,15 @@
 
 use std::f64::consts::PI;
 
+use super::floor::{floor_grains, walls};
 use super::model::{
-    Arrangement, Detection, Dimensions, Floor, GrainDrag, Lift, Sedimentation, Sides, SlicePorosity,
-    StillFluid, Voidage,
+    Arrangement, Detection, Dimensions, Floor, GrainDrag, Lift, Sedimentation, SlicePorosity, StillFluid,
+    Voidage,
 };
 use super::snapshot;
 use super::step::limits;
 use crate::arrangement::{self, Fault, Region};
-use crate::bed::{self, Attraction, Bed, Grain, Grains, Interaction, Listing, Porosity, Surroundings, Wall};
+use crate::bed::{self, Attraction, Bed, Grain, Grains, Interaction, Listing, Porosity, Surroundings};
 use crate::cohesion::VanDerWaals;
 use crate::contact::{Body, ContactLaws, Couple};
 use crate::coupling::slices::Measure;
@@ -54,7 +55,7 @@ fn moving_grains(scene: &Sedimentation) -> Result<Vec<Grain>, Fault> {
         width: scene.container.width,
         depth: scene.depth(),
         height: scene.container.height,
-        periodic: scene.container.sides == Sides::Periodic,
+        periodic: scene.periodic(),
         dimensions: match scene.dimensions {
             Dimensions::Two => arrangement::Dimensions::Two,
             Dimensions::Three => arrangement::Dimensions::Three,
@@ -75,7 +76,8 @@ fn moving_grains(scene: &Sedimentation) -> Result<Vec<Grain>, Fault> {
         .map(|((body, class), position)| Grain {
             body,
             class,
-            position: position + lift_of_floor(scene),
+            // Grains start above the tops of those that make the floor.
+            position: position + Vec3::new(0.0, 0.0, scene.floor_top()),
             velocity: Vec3::zeros(),
             angular_velocity: Vec3::zeros(),
         })
@@ -97,70 +99,19 @@ fn bodies(scene: &Sedimentation, random: &mut Random) -> Vec<(Body, u16)> {
     bodies
 }
 
-/// Grains start above the tops of those that make the floor.
-fn lift_of_floor(scene: &Sedimentation) -> Vec3 {
-    match scene.container.floor {
-        Floor::Flat => Vec3::zeros(),
-        Floor::Grains { diameter } => Vec3::new(0.0, 0.0, 0.5 * diameter),
-    }
-}
-
-/// Fixed grains side by side along x, their centres at z = 0.
-fn floor_grains(scene: &Sedimentation) -> Vec<Grain> {
-    let Floor::Grains { diameter } = scene.container.floor else {
-        return Vec::new();
-    };
-    let width = scene.container.width;
-    // Without a gap: the last ones may overlap a little.
-    let count = (width / diameter).ceil() as u32;
-    (0..count)
-        .map(|i| Grain {
-            body: Body::sphere(diameter, 1.0),
-            class: u16::MAX,
-            position: Vec3::new(width * (f64::from(i) + 0.5) / f64::from(count), 0.0, 0.0),
-            velocity: Vec3::zeros(),
-            angular_velocity: Vec3::zeros(),
-        })
-        .collect()
-}
-
-fn walls(scene: &Sedimentation) -> Vec<Wall> {
-    let mut walls = vec![Wall {
-        normal: Vec3::z(),
-        // Under a floor of grains it only catches what falls through.
-        point: match scene.container.floor {
-            Floor::Flat => Vec3::zeros(),
-            Floor::Grains { diameter } => Vec3::new(0.0, 0.0, -diameter - scene.largest_diameter()),
-        },
-    }];
-    if scene.container.sides == Sides::Walls {
-        let far = Vec3::new(scene.container.width, scene.depth(), 0.0);
-        let mut pair = |normal: Vec3| {
-            walls.push(Wall {
-                normal,
-                point: Vec3::zeros(),
-            });
-            walls.push(Wall {
-                normal: -normal,
-                point: far,
-            });
-        };
-        pair(Vec3::x());
-        if scene.dimensions == Dimensions::Three {
-            pair(Vec3::y());
-        }
-    }
-    walls
-}
-
 fn interaction(scene: &Sedimentation) -> Interaction {
     let extremes = scene.extremes();
     let uniform = extremes.len() == 1 && scene.container.floor == Floor::Flat;
-    let period = match scene.container.sides {
-        Sides::Walls => [0.0; 3],
-        Sides::Periodic if scene.dimensions == Dimensions::Two => [scene.container.width, 0.0, 0.0],
-        Sides::Periodic => [scene.container.width, scene.container.depth, 0.0],
-    };
+    let [along, across] = scene.periodic();
+    let period = [
+        if along { scene.container.width } else { 0.0 },
+        if across && scene.dimensions == Dimensions::Three {
+            scene.container.depth
+        } else {
+            0.0
+        },
+        0.0,
+    ];
     Interaction {
         laws: ContactLaws {
             normal: scene.normal.law(),

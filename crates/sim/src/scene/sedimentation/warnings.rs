@@ -41,7 +41,9 @@ pub fn warnings(
     );
     let bond = bond.unwrap_or_default();
     let hang = match (scene.container.sides, scene.cohesion) {
-        (Sides::Walls, Some(cohesion)) if cohesion.walls => ", and grains may hang on the walls",
+        (Sides::Walls | Sides::PeriodicAlongX, Some(cohesion)) if cohesion.walls => {
+            ", and grains may hang on the walls"
+        }
         _ => "",
     };
     warn(
