@@ -16,7 +16,8 @@ use super::{Entry, Kind, ReferenceError, Solution};
 
 const GROWTH: &str = "cake_growth";
 const THICKNESS: &str = "cake_thickness";
-const SOURCE: &str = "balance of the solids over the front of the cake: Kynch (1952), Trans. Faraday Soc. 48, 166";
+const SOURCE: &str =
+    "balance of the solids over the front of the cake: Kynch (1952), Trans. Faraday Soc. 48, 166";
 
 /// Speed of the front [m/s] under a solid flux ṄV_p/A [m/s], ε and φ_s [-].
 pub fn front_speed(solid_flux: f64, porosity: f64, suspended: f64) -> f64 {
@@ -62,5 +63,40 @@ pub(super) fn thickness_solution() -> Solution {
         },
         unit: "m",
         kind: Kind::Scalar(thickness),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+    use crate::reference::filter::tests::{filter, settings};
+    use crate::reference::{Facts, scalar, series};
+
+    #[test]
+    fn the_cake_begins_with_its_first_grain_and_ends_with_the_last() {
+        let filtrate = json!({"held": "flux", "initial_flux": 0.01, "pressure_drop": 2000.0});
+        let settings = settings(filtrate, json!({"rate": {"rate": 1250.0}}));
+        let facts = Facts {
+            settings: &settings,
+            scalars: &|name| match name {
+                "porosity" => Some(0.45),
+                "first_deposit_time" => Some(0.2),
+                _ => None,
+            },
+        };
+        let at = |times: &[f64]| series("cake_growth", &facts, times).unwrap().values;
+        let end = scalar("cake_thickness", &facts).unwrap().values[0];
+        let thickness = at(&[0.1, 0.2, 0.4, 0.6, 5.0]);
+        assert_eq!(thickness[..2], [0.0, 0.0]);
+        assert!((thickness[3] / thickness[2] - 2.0).abs() < 1e-12);
+        assert_eq!(thickness[4], end);
+        // Solids come down with the suspension as the front rises into it.
+        let filter = filter(&settings);
+        let flux = filter.solid_flux("test").unwrap();
+        let speed = (thickness[3] - thickness[2]) / 0.2;
+        let met = filter.suspended(flux) * speed;
+        assert!(((flux + met) / (0.55 * speed) - 1.0).abs() < 1e-12);
     }
 }

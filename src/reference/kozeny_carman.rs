@@ -62,7 +62,10 @@ mod tests {
 
     #[test]
     fn the_table_of_permeabilities_comes_back() {
-        let table = Library::carried().unwrap().dataset("carman_kozeny_analytic.csv").unwrap();
+        let table = Library::carried()
+            .unwrap()
+            .dataset("carman_kozeny_analytic.csv")
+            .unwrap();
         let column = |name: &str| table.numbers(name).unwrap();
         let (diameters, porosities) = (column("d_um"), column("porosity"));
         let (known, resistances) = (column("k_constant180_m2"), column("alpha_rho_s_2460_m_kg"));
@@ -80,7 +83,8 @@ mod tests {
     fn the_two_printed_values_are_a_ten_thousandth() {
         for (porosity, diameter, printed) in [(0.392, 150e-6, 2.03e-15), (0.553, 500e-6, 1.175e-13)] {
             let share = printed / kozeny_carman(porosity, diameter) / SLIP;
-            assert!((share - 1.0).abs() < 3e-3, "{porosity}: {share}");
+            // Half a unit of the porosity's last digit is 0.6 % of the permeability.
+            assert!((share - 1.0).abs() < 6e-3, "{porosity}: {share}");
         }
     }
 }
