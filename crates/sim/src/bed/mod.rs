@@ -6,12 +6,14 @@
 mod attraction;
 mod contacts;
 mod crew;
+mod exchange;
 mod grains;
 mod motion;
 mod pairs;
 mod scheme;
 mod sleep;
 mod slices;
+mod stream;
 #[cfg(test)]
 mod tests;
 mod touching;
@@ -23,6 +25,7 @@ pub use grains::{Grain, Grains};
 pub use motion::Surroundings;
 pub use scheme::Scheme;
 pub use slices::Porosity;
+pub use stream::Stream;
 pub use touching::Touching;
 pub use walls::Wall;
 
@@ -31,8 +34,9 @@ use crate::neighbours::{Record, Search, in_widest};
 
 use contacts::PairSweep;
 use crew::Crew;
+use exchange::smallest_diameter;
 use motion::{KickAndDrift, Stride};
-use pairs::PairList;
+use pairs::{Memories, PairList};
 use sleep::Sleep;
 use walls::{WallSweep, Walls};
 
@@ -107,11 +111,7 @@ impl Bed {
         listing: Listing,
         porosity: Option<Porosity>,
     ) -> Self {
-        let smallest = grains
-            .spheres()
-            .iter()
-            .map(|sphere| 2.0 * sphere.0[3])
-            .fold(f64::INFINITY, f64::min);
+        let smallest = smallest_diameter(&grains);
         let mut bed = Bed {
             forces: vec![Record::default(); grains.motion.len()],
             grains,
@@ -231,10 +231,14 @@ impl Bed {
     fn renew_lists(&mut self, fastest: f64) {
         let grains = &self.grains;
         let count = grains.len();
-        let memories = self
-            .pairs
-            .memories(|places| places.map(|place| grains.number[place as usize]), count);
-        let wall_memories = self.walls.memories(grains);
+        let name = |place: u32| grains.number[place as usize];
+        let memories = self.pairs.memories(|places| places.map(name), count);
+        let wall_memories = self.walls.memories(name, count);
+        self.relist(fastest, &memories, &wall_memories);
+    }
+
+    /// The same with what contacts remember by the numbers of the grains.
+    fn relist(&mut self, fastest: f64, memories: &Memories, wall_memories: &Memories) {
         let period = self.interaction.period;
         self.grains.wrap(period);
         self.grains.sort();
@@ -259,9 +263,9 @@ impl Bed {
         self.pairs = PairList::of_grains(grains, search, period, reach, &mut self.work.looked_at);
         self.pairs.recall(
             |places| places.map(|place| grains.number[place as usize]),
-            &memories,
+            memories,
         );
-        self.walls.renew(grains, reach, &wall_memories);
+        self.walls.renew(grains, reach, wall_memories);
         if let Some(crew) = &mut self.crew {
             crew.learn(&self.pairs, grains);
         }

@@ -17,14 +17,19 @@ const MOST_LAYERS: u32 = 10;
 const MOST_CLASSES: usize = 64;
 
 pub fn check(scene: &Sedimentation, list: &mut List) {
+    if check_parts(scene, list) {
+        time_step(scene, &limits(scene), list);
+    }
+}
+
+/// Everything but the time step, which may depend on more; says whether it makes sense.
+pub fn check_parts(scene: &Sedimentation, list: &mut List) -> bool {
     let mut sound = classes(scene, list);
     sound &= container(scene, list);
     sound &= check_laws(&scene.normal, &scene.tangential, &scene.rolling, list);
     sound &= forces(scene, list);
     sound &= switches(scene, list);
-    if sound && fits(scene, list) && parts(scene, list) {
-        time_step(scene, list);
-    }
+    sound && fits(scene, list) && parts(scene, list)
 }
 
 /// Path of a class: a scene with one calls it `grains`.
@@ -217,11 +222,10 @@ fn parts(scene: &Sedimentation, list: &mut List) -> bool {
     holds
 }
 
-fn time_step(scene: &Sedimentation, list: &mut List) {
+pub fn time_step(scene: &Sedimentation, limits: &Limits, list: &mut List) {
     if scene.unsafe_time_step {
         return;
     }
-    let limits = limits(scene);
     match scene.time_step {
         // A step exactly at the limit is meant to be safe.
         Some(step) if step > limits.longest * (1.0 + 1e-9) => {

@@ -12,12 +12,12 @@ impl GrainClass {
     }
 
     /// Mean of d² over the class [m²]; with p(R) = R₁R₂/((R₂ − R₁)R²) it is d₁ d₂.
-    fn mean_square(&self) -> f64 {
+    pub fn mean_square(&self) -> f64 {
         self.diameter * self.largest()
     }
 
     /// Mean of d³ over the class [m³]; with the same density d₁ d₂ (d₁ + d₂)/2.
-    fn mean_cube(&self) -> f64 {
+    pub fn mean_cube(&self) -> f64 {
         self.mean_square() * 0.5 * (self.diameter + self.largest())
     }
 }
@@ -86,6 +86,16 @@ impl Sedimentation {
             .iter()
             .map(|class| f64::from(class.number) * class.mean_cube());
         PI / 6.0 * volumes.sum::<f64>()
+    }
+
+    /// Diameter [m] of equal spheres with as much surface per volume, expected.
+    pub fn sauter_diameter(&self) -> f64 {
+        let sum = |mean: fn(&GrainClass) -> f64| -> f64 {
+            self.present()
+                .map(|class| f64::from(class.number) * mean(class))
+                .sum()
+        };
+        sum(GrainClass::mean_cube) / sum(GrainClass::mean_square)
     }
 
     /// Volume fraction of the grains in the box as the fluid sees it [-].

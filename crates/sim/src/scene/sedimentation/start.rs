@@ -13,7 +13,7 @@ use crate::arrangement::{self, Fault, Region};
 use crate::bed::{self, Attraction, Bed, Grain, Grains, Interaction, Listing, Porosity, Surroundings};
 use crate::cohesion::VanDerWaals;
 use crate::contact::{Body, ContactLaws, Couple};
-use crate::coupling::slices::Measure;
+use crate::coupling::slices::{Measure, Slices};
 use crate::drag::{AnyDrag, AnyVoidage, SphereDrag};
 use crate::math::{Random, Vec3};
 use crate::neighbours::Search;
@@ -24,32 +24,45 @@ use crate::neighbours::Search;
 /// Grains that do not find room.
 pub fn start(scene: &Sedimentation) -> Result<Bed, Fault> {
     let grains = Grains::new(&moving_grains(scene)?, &floor_grains(scene));
-    let fluid = scene.fluid.medium();
-    let surroundings = Surroundings {
-        gravity: scene.gravity,
-        fluid_density: fluid.density,
-        viscosity: fluid.viscosity,
-        drag: drag(scene),
-        lift: scene.lift == Lift::Magnus,
-    };
-    let listing = match scene.detection {
-        Detection::List { skin } => Listing::Skin(skin),
-        Detection::Cells => Listing::EveryStep(Search::Grid),
-        Detection::BruteForce => Listing::EveryStep(Search::BruteForce),
-    };
+    let interaction = interaction(scene, limits(scene).time_step);
     let bed = Bed::new(
         grains,
         &walls(scene),
-        interaction(scene),
-        surroundings,
-        listing,
+        interaction,
+        surroundings(scene),
+        listing(scene),
         porosity(scene),
     )
     .with_threads(scene.threads as usize);
     Ok(if scene.sleeping { bed.with_sleeping() } else { bed })
 }
 
-fn moving_grains(scene: &Sedimentation) -> Result<Vec<Grain>, Fault> {
+pub fn surroundings(scene: &Sedimentation) -> Surroundings {
+    let fluid = scene.fluid.medium();
+    Surroundings {
+        gravity: scene.gravity,
+        fluid_density: fluid.density,
+        viscosity: fluid.viscosity,
+        drag: drag(scene),
+        lift: scene.lift == Lift::Magnus,
+        stream: None,
+        shear_lift: false,
+    }
+}
+
+pub fn listing(scene: &Sedimentation) -> Listing {
+    match scene.detection {
+        Detection::List { skin } => Listing::Skin(skin),
+        Detection::Cells => Listing::EveryStep(Search::Grid),
+        Detection::BruteForce => Listing::EveryStep(Search::BruteForce),
+    }
+}
+
+/// The grains as the scene arranges them.
+///
+/// # Errors
+/// Grains that do not find room.
+pub fn moving_grains(scene: &Sedimentation) -> Result<Vec<Grain>, Fault> {
     let mut random = Random::new(scene.seed);
     let region = Region {
         width: scene.container.width,
@@ -85,7 +98,7 @@ fn moving_grains(scene: &Sedimentation) -> Result<Vec<Grain>, Fault> {
 }
 
 /// Sizes and classes of all moving grains; sizes of a spread class are drawn in turn.
-fn bodies(scene: &Sedimentation, random: &mut Random) -> Vec<(Body, u16)> {
+pub fn bodies(scene: &Sedimentation, random: &mut Random) -> Vec<(Body, u16)> {
     let mut bodies = Vec::new();
     for (class, kind) in scene.classes.iter().enumerate() {
         for _ in 0..kind.number {
@@ -99,7 +112,8 @@ fn bodies(scene: &Sedimentation, random: &mut Random) -> Vec<(Body, u16)> {
     bodies
 }
 
-fn interaction(scene: &Sedimentation) -> Interaction {
+/// Contacts and attraction over a time step [s].
+pub fn interaction(scene: &Sedimentation, time_step: f64) -> Interaction {
     let extremes = scene.extremes();
     let uniform = extremes.len() == 1 && scene.container.floor == Floor::Flat;
     let [along, across] = scene.periodic();
@@ -121,7 +135,7 @@ fn interaction(scene: &Sedimentation) -> Interaction {
         attraction: attraction(scene),
         couple: uniform.then(|| Couple::new(&extremes[0].0, &extremes[0].0)),
         period,
-        time_step: limits(scene).time_step,
+        time_step,
     }
 }
 
@@ -175,15 +189,22 @@ fn drag(scene: &Sedimentation) -> Option<AnyDrag> {
 /// Slices, where anything depends on them.
 fn porosity(scene: &Sedimentation) -> Option<Porosity> {
     let closed = matches!(scene.fluid, StillFluid::Column(_));
-    let extremes = scene.extremes();
-    let (_, density) = extremes.first()?;
-    let mixed = extremes.iter().any(|(_, other)| other != density) && scene.drag != GrainDrag::None;
     let seen = scene.voidage != Voidage::None && scene.drag != GrainDrag::None;
-    if !(closed || mixed || seen) {
-        return None;
-    }
+    (closed || mixed(scene) || seen).then(|| slices(scene, 0.0))
+}
+
+/// Whether grains of several densities share the drag on the mixture.
+fn mixed(scene: &Sedimentation) -> bool {
+    let extremes = scene.extremes();
+    let differ = extremes.iter().any(|(_, other)| *other != extremes[0].1);
+    differ && scene.drag != GrainDrag::None
+}
+
+/// Slices from a height [m] up.
+pub fn slices(scene: &Sedimentation, bottom: f64) -> Porosity {
     let viscosity = scene.fluid.medium().viscosity;
-    let relaxation = extremes
+    let relaxation = scene
+        .extremes()
         .iter()
         .map(|(body, _)| body.mass / (6.0 * PI * viscosity * body.radius))
         .fold(f64::INFINITY, f64::min);
@@ -192,12 +213,13 @@ fn porosity(scene: &Sedimentation) -> Option<Porosity> {
         SlicePorosity::Centre => (Measure::Centre, scene.container.width * scene.depth()),
         SlicePorosity::Areas => (Measure::Areas, scene.container.width),
     };
-    Some(Porosity::new(
-        scene.largest_diameter(),
-        area,
-        measure,
+    let height = scene.largest_diameter();
+    let closed = matches!(scene.fluid, StillFluid::Column(_));
+    Porosity::new(
+        Slices::new(bottom, height, area, measure),
+        height,
         closed,
-        mixed,
+        mixed(scene),
         relaxation,
-    ))
+    )
 }
