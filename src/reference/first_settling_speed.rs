@@ -26,6 +26,21 @@ pub enum Crowding {
     AlvimLiteral,
 }
 
+impl Crowding {
+    /// The one that the settings name.
+    pub fn of(case: &Case) -> Result<Crowding, ReferenceError> {
+        match case.word("voidage") {
+            Some("none") => Ok(Crowding::None),
+            Some("di_felice") => Ok(Crowding::DiFelice),
+            Some("alvim_literal") => Ok(Crowding::AlvimLiteral),
+            other => {
+                let word = other.unwrap_or_default();
+                Err(ReferenceError(format!("no voidage function is called `{word}`")))
+            }
+        }
+    }
+}
+
 /// Superficial slip [m/s], positive downwards, at a porosity [-].
 pub fn superficial_slip(grain: &Grain, law: DragLaw, crowding: Crowding, porosity: f64) -> f64 {
     let exponent = |re: f64| match crowding {
@@ -45,15 +60,7 @@ fn first_settling_speed(case: &Case) -> Result<f64, ReferenceError> {
         let reason = "`first_settling_speed` holds for equal grains, not for a spread of diameters";
         return Err(ReferenceError(reason.to_string()));
     }
-    let crowding = match case.word("voidage") {
-        Some("none") => Crowding::None,
-        Some("di_felice") => Crowding::DiFelice,
-        Some("alvim_literal") => Crowding::AlvimLiteral,
-        other => {
-            let word = other.unwrap_or_default();
-            return Err(ReferenceError(format!("no voidage function is called `{word}`")));
-        }
-    };
+    let crowding = Crowding::of(case)?;
     let room = case.number("container.width")?
         * case.number("container.depth")?
         * case.number("container.height")?;

@@ -1,17 +1,22 @@
 //! Values to judge against: analytic solutions and published data. Shares nothing with the simulator.
 
 mod all_pairs;
+pub mod cake_growth;
 mod collision;
+pub mod darcy_in_series;
 pub mod data;
 pub mod drag_law;
+pub mod filter;
 pub mod first_settling_speed;
 pub mod force_balance;
 pub mod grain;
 pub mod hertz_collision;
 pub mod kernel;
+pub mod kozeny_carman;
 pub mod library;
 pub mod rehearsal;
 mod root;
+pub mod ruth;
 mod settings;
 pub mod smoothed_balance;
 pub mod spring_dashpot_collision;
@@ -91,6 +96,14 @@ fn solutions() -> Vec<Solution> {
         collision::sliding(),
         all_pairs::solution(),
         stable_step::solution(),
+        kozeny_carman::solution(),
+        kozeny_carman::with_unit_slip(),
+        cake_growth::growth_solution(),
+        cake_growth::thickness_solution(),
+        darcy_in_series::flux_solution(),
+        darcy_in_series::pressure_solution(),
+        ruth::slope_solution(),
+        ruth::intercept_solution(),
         rehearsal::limit(),
         rehearsal::series(),
     ]

@@ -18,6 +18,7 @@ impl Dimension {
     pub const PRESSURE: Dimension = Dimension([1, -1, -2, 0]);
     pub const DAMPING: Dimension = Dimension([1, 0, -1, 0]);
     pub const FREQUENCY: Dimension = Dimension([0, 0, -1, 0]);
+    pub const RESISTANCE: Dimension = Dimension([0, -1, 0, 0]);
     pub const ENERGY: Dimension = Dimension([1, 2, -2, 0]);
     pub const CHARGE: Dimension = Dimension([0, 0, 1, 1]);
 
@@ -97,6 +98,7 @@ const NAMED: &[(Dimension, &str, &str)] = &[
     (Dimension([1, 2, -3, 0]), "power", "W"),
     (Dimension([0, 2, -1, 0]), "diffusivity", "m²/s"),
     (Dimension::FREQUENCY, "frequency", "1/s"),
+    (Dimension::RESISTANCE, "resistance", "1/m"),
     (Dimension::CHARGE, "charge", "C"),
 ];
 

@@ -21,7 +21,7 @@ fn particles_per_side(point: &Point) -> f64 {
     let (fluid, column, grains) = match scene {
         Scene::SingleSphere(sphere) => (&sphere.fluid, sphere.column, sphere.grains),
         Scene::ConstantPorosityBlock(block) => (&block.fluid, block.column, block.grains),
-        Scene::BinaryCollision(_) | Scene::Sedimentation(_) | Scene::Suspension(_) => {
+        Scene::BinaryCollision(_) | Scene::Sedimentation(_) | Scene::Suspension(_) | Scene::Filtration(_) => {
             panic!("a scene with a fluid")
         }
     };
@@ -149,6 +149,7 @@ fn the_schema_is_closed_and_its_references_resolve() {
             "constant_porosity_block",
             "binary_collision",
             "sedimentation",
+            "filtration",
             "rehearsal"
         ]
     );

@@ -2,6 +2,7 @@
 //! structural check of a file follows.
 
 pub mod collision;
+pub mod filtration;
 pub mod quantity;
 pub mod scene;
 pub mod sedimentation;

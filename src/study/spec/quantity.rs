@@ -101,6 +101,16 @@ quantity!(
     Dimension::FREQUENCY
 );
 quantity!(
+    /// [1/s]
+    Frequency,
+    Dimension::FREQUENCY
+);
+quantity!(
+    /// [1/m]
+    MediumResistance,
+    Dimension::RESISTANCE
+);
+quantity!(
     /// [Pa]
     Pressure,
     Dimension::PRESSURE

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::collision::CollisionSpec;
+use super::filtration::FiltrationSpec;
 use super::quantity::{
     Acceleration, CoefficientSpec, Density, Fraction, Length, SoundSpeedSpec, StiffnessSpec, Time,
     TimeStepSpec, Viscosity,
@@ -22,6 +23,8 @@ pub enum SceneSpec {
     BinaryCollision(CollisionSpec),
     /// Many grains settle through a fluid onto the floor of a box and form a bed.
     Sedimentation(SedimentationSpec),
+    /// A suspension is driven through a filter medium and leaves a cake on it.
+    Filtration(FiltrationSpec),
     /// No physics: returns a known series, to try out plans, stores, verdicts and reports.
     Rehearsal(RehearsalSpec),
 }

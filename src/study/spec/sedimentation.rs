@@ -13,6 +13,14 @@ use super::scene::{MediumSpec, gravity};
 /// Many grains settle through a fluid onto the floor of a box and form a bed.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 pub struct SedimentationSpec {
+    #[serde(flatten)]
+    pub bed: BedSpec,
+    pub fluid: StillFluidSpec,
+}
+
+/// What every scene of many grains in a box has, whatever its fluid.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+pub struct BedSpec {
     /// 2 or 3. In two dimensions the centres of the spheres stay in a plane.
     #[serde(default = "three")]
     pub dimensions: u32,
@@ -52,7 +60,6 @@ pub struct SedimentationSpec {
     /// Force across the slip.
     #[serde(default = "LiftSpec::none")]
     pub lift: LiftSpec,
-    pub fluid: StillFluidSpec,
     #[serde(default = "gravity")]
     pub gravity: Acceleration,
     /// Longest simulated time.
@@ -120,6 +127,8 @@ pub enum SidesSpec {
     /// Flat rigid walls.
     Walls,
     Periodic,
+    /// Periodic along the width, flat rigid walls across the depth.
+    PeriodicAlongX,
 }
 
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
@@ -127,13 +136,19 @@ pub enum SidesSpec {
 pub enum FloorSpec {
     /// A flat rigid wall.
     Flat,
-    /// Fixed grains side by side, in two dimensions.
+    /// Fixed grains side by side.
     Grains(FloorGrainsSpec),
 }
 
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 pub struct FloorGrainsSpec {
     pub diameter: Length,
+    /// Widest gap between neighbours: a whole number of them fills the width.
+    #[serde(default = "no_length")]
+    pub gap: Length,
+    /// Layers of them, each in the hollows of the one over it.
+    #[serde(default = "one")]
+    pub layers: u32,
 }
 
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
@@ -340,6 +355,10 @@ fn four_fifths() -> Fraction {
 
 fn twenty() -> Fraction {
     Fraction(20.0)
+}
+
+fn no_length() -> Length {
+    Length(0.0)
 }
 
 fn one() -> u32 {

@@ -1,6 +1,7 @@
 //! From the written scene to the plain data that runs.
 
 mod collision;
+mod filtration;
 mod sedimentation;
 mod snapshot;
 
@@ -16,15 +17,12 @@ use super::faults::{Fault, faults};
 use super::model::{Rehearsal, RehearsalEnding, Work};
 use super::spec::quantity::{CoefficientSpec, SoundSpeedSpec, StiffnessSpec, TimeStepSpec};
 use super::spec::scene::*;
-use super::spec::sedimentation::{ArrangementSpec, SedimentationSpec};
+use super::spec::sedimentation::{ArrangementSpec, BedSpec};
 
 /// Fills in what follows from other fields and files: the lattice of a block, the grains of a snapshot.
 pub fn completed(mut spec: SceneSpec, snapshots: &Snapshots) -> SceneSpec {
-    if let SceneSpec::Sedimentation(SedimentationSpec {
-        arrangement: ArrangementSpec::Snapshot(snapshot),
-        ..
-    }) = &mut spec
-    {
+    let arrangement = bed(&mut spec).map(|bed| &mut bed.arrangement);
+    if let Some(ArrangementSpec::Snapshot(snapshot)) = arrangement {
         snapshots.fill(snapshot);
     }
     if let SceneSpec::ConstantPorosityBlock(block) = &mut spec {
@@ -37,6 +35,15 @@ pub fn completed(mut spec: SceneSpec, snapshots: &Snapshots) -> SceneSpec {
         }
     }
     spec
+}
+
+/// The box of grains of a scene that has one.
+fn bed(spec: &mut SceneSpec) -> Option<&mut BedSpec> {
+    match spec {
+        SceneSpec::Sedimentation(spec) => Some(&mut spec.bed),
+        SceneSpec::Filtration(spec) => Some(&mut spec.bed),
+        _ => None,
+    }
 }
 
 /// Distance of neighbours in a cubic lattice of the given porosity [m].
@@ -98,23 +105,29 @@ pub fn work(spec: &SceneSpec) -> Work {
         SceneSpec::Sedimentation(spec) => {
             Work::Simulation(Scene::Sedimentation(sedimentation::sedimentation(spec)))
         }
+        SceneSpec::Filtration(spec) => Work::Simulation(Scene::Filtration(filtration::filtration(spec))),
         SceneSpec::Rehearsal(rehearsal) => Work::Rehearsal(rehearsed(rehearsal)),
     }
 }
 
 /// Everything that keeps a scene from running, as it is written. Expects a [`completed`] one.
 pub fn refusals(spec: &SceneSpec, work: &Work) -> Vec<Fault> {
-    match spec {
-        SceneSpec::Sedimentation(spec) => {
-            let contradictions = sedimentation::contradictions(spec);
-            if !contradictions.is_empty() {
-                return contradictions;
-            }
-            let found = faults(work).into_iter();
-            found.map(|fault| sedimentation::placed(spec, fault)).collect()
-        }
-        _ => faults(work),
+    let (bed, scene) = match spec {
+        SceneSpec::Sedimentation(spec) => (&spec.bed, "sedimentation"),
+        SceneSpec::Filtration(spec) => (&spec.bed, "filtration"),
+        _ => return faults(work),
+    };
+    let contradictions = sedimentation::contradictions(bed, scene);
+    if !contradictions.is_empty() {
+        return contradictions;
     }
+    let placed = |mut fault: Fault| {
+        if let SceneSpec::Filtration(spec) = spec {
+            fault.path = filtration::path(spec, &fault.path);
+        }
+        sedimentation::placed(bed, fault)
+    };
+    faults(work).into_iter().map(placed).collect()
 }
 
 fn rehearsed(spec: &RehearsalSpec) -> Rehearsal {

@@ -1,8 +1,8 @@
-//! From the written sedimentation to the plain data that runs.
+//! From the written sedimentation, and the box of grains of every scene, to the plain data that runs.
 
 use kynch_sim::scene::{
-    Arrangement, Charge, Cohesion, Container, Detection, Dimensions, Floor, GrainClass, GrainDrag, Lift,
-    Medium, Sedimentation, Sides, SlicePorosity, Snapshot, StillFluid, Until, Voidage,
+    Arrangement, Charge, Cohesion, Container, Detection, Dimensions, Floor, FloorGrains, GrainClass,
+    GrainDrag, Lift, Medium, Sedimentation, Sides, SlicePorosity, Snapshot, StillFluid, Until, Voidage,
 };
 
 use super::collision::{integrator, normal, rolling, tangential};
@@ -14,6 +14,11 @@ use crate::study::spec::sedimentation::*;
 
 /// The scene with the first seed; a point sets its own.
 pub fn sedimentation(spec: &SedimentationSpec) -> Sedimentation {
+    bed(&spec.bed, fluid(&spec.fluid))
+}
+
+/// The grains, their box, laws and numerics, in a fluid.
+pub fn bed(spec: &BedSpec, fluid: StillFluid) -> Sedimentation {
     Sedimentation {
         dimensions: if spec.dimensions == 2 {
             Dimensions::Two
@@ -49,7 +54,7 @@ pub fn sedimentation(spec: &SedimentationSpec) -> Sedimentation {
             LiftSpec::None => Lift::None,
             LiftSpec::Magnus => Lift::Magnus,
         },
-        fluid: fluid(&spec.fluid),
+        fluid,
         gravity: spec.gravity.0,
         duration: spec.duration.0,
         until: match spec.until {
@@ -80,7 +85,7 @@ fn snapshot(spec: &SnapshotSpec) -> Snapshot {
     })
 }
 
-fn classes(spec: &SedimentationSpec) -> &[GrainClassSpec] {
+fn classes(spec: &BedSpec) -> &[GrainClassSpec] {
     match (&spec.grains, &spec.classes) {
         (_, Some(classes)) => classes,
         (Some(grains), None) => std::slice::from_ref(grains),
@@ -97,7 +102,7 @@ fn class(spec: &GrainClassSpec) -> GrainClass {
     }
 }
 
-fn container(spec: &SedimentationSpec) -> Container {
+fn container(spec: &BedSpec) -> Container {
     let written = &spec.container;
     let widest = |class: &GrainClassSpec| {
         class
@@ -112,12 +117,15 @@ fn container(spec: &SedimentationSpec) -> Container {
         sides: match written.sides {
             SidesSpec::Walls => Sides::Walls,
             SidesSpec::Periodic => Sides::Periodic,
+            SidesSpec::PeriodicAlongX => Sides::PeriodicAlongX,
         },
         floor: match &written.floor {
             FloorSpec::Flat => Floor::Flat,
-            FloorSpec::Grains(grains) => Floor::Grains {
+            FloorSpec::Grains(grains) => Floor::Grains(FloorGrains {
                 diameter: grains.diameter.0,
-            },
+                gap: grains.gap.0,
+                layers: grains.layers,
+            }),
         },
     }
 }
@@ -182,8 +190,8 @@ fn detection(spec: &DetectionSpec) -> Detection {
     }
 }
 
-/// What contradicts itself as it is written.
-pub fn contradictions(spec: &SedimentationSpec) -> Vec<Fault> {
+/// What contradicts itself as it is written in a scene of that name.
+pub fn contradictions(spec: &BedSpec, scene: &str) -> Vec<Fault> {
     let mut faults = Vec::new();
     let mut add = |path: &str, message: &str, help: &str| {
         faults.push(Fault {
@@ -196,7 +204,7 @@ pub fn contradictions(spec: &SedimentationSpec) -> Vec<Fault> {
         (Some(_), Some(_)) => add("classes", "`grains` and `classes` are both given", "keep one"),
         (None, None) => add(
             "grains",
-            "`grains` is missing from `sedimentation`",
+            &format!("`grains` is missing from `{scene}`"),
             "add `grains:` with diameter, density and number, or a list `classes:` of them",
         ),
         _ => {}
@@ -216,7 +224,7 @@ pub fn contradictions(spec: &SedimentationSpec) -> Vec<Fault> {
 }
 
 /// Where a fault of the scene stands in the file: a scene of one class may list it all the same.
-pub fn placed(spec: &SedimentationSpec, mut fault: Fault) -> Fault {
+pub fn placed(spec: &BedSpec, mut fault: Fault) -> Fault {
     if let (Some(_), Some(rest)) = (&spec.classes, fault.path.strip_prefix("grains.")) {
         fault.path = format!("classes.0.{rest}");
     }

@@ -185,6 +185,8 @@ fn bed(size: Vec3, spheres: &[(Vec3, f64)], walls: bool, rolling: bool) -> Bed {
             voidage: AnyVoidage::None,
         }),
         lift: false,
+        stream: None,
+        shear_lift: false,
     };
     let planes = if walls { &planes[..] } else { &[] };
     Bed::new(

@@ -255,7 +255,7 @@ mod tests {
             (reach, seed) in (0.0..0.4, any::<u64>()),
         ) {
             let dimensions = if flat { Dimensions::Two } else { Dimensions::Three };
-            let region = Region { width, depth, height, periodic, dimensions };
+            let region = Region { width, depth, height, periodic: [periodic; 2], dimensions };
             // Some are put elsewhere first.
             let before = scattered(&region, radii.len(), !seed);
             let positions = scattered(&region, radii.len(), seed);
@@ -285,7 +285,7 @@ mod tests {
             width: 1.0,
             depth: 1.0,
             height: 1.0,
-            periodic: true,
+            periodic: [true; 2],
             dimensions: Dimensions::Three,
         };
         let visits = |radii: &[f64]| {

@@ -23,8 +23,8 @@ pub struct Region {
     pub depth: f64,
     /// Along z [m].
     pub height: f64,
-    /// Whether what leaves through a side comes back through the opposite one.
-    pub periodic: bool,
+    /// Whether what leaves through a side across x, across y comes back through the opposite one.
+    pub periodic: [bool; 2],
     pub dimensions: Dimensions,
 }
 
@@ -46,8 +46,10 @@ impl Region {
     /// points inside.
     #[inline(always)]
     pub fn nearest(&self, mut difference: Vec3) -> Vec3 {
-        if self.periodic {
+        if self.periodic[0] {
             difference.x = nearest(difference.x, self.width);
+        }
+        if self.periodic[1] {
             difference.y = nearest(difference.y, self.depth);
         }
         difference
@@ -55,7 +57,7 @@ impl Region {
 
     /// Whether an axis (0, 1, 2 for x, y, z) is periodic.
     pub(super) fn wraps(&self, axis: usize) -> bool {
-        self.periodic && (axis == 0 || (axis == 1 && self.dimensions == Dimensions::Three))
+        axis < 2 && self.periodic[axis] && (axis == 0 || self.dimensions == Dimensions::Three)
     }
 
     /// The box along x, y, z [m]; flat in two dimensions.

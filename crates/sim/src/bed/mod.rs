@@ -7,12 +7,14 @@ mod attraction;
 mod contacts;
 mod crew;
 mod driven;
+mod exchange;
 mod grains;
 mod motion;
 mod pairs;
 mod scheme;
 mod sleep;
 mod slices;
+mod stream;
 #[cfg(test)]
 mod tests;
 mod touching;
@@ -25,6 +27,7 @@ pub use grains::{Grain, Grains};
 pub use motion::Surroundings;
 pub use scheme::Scheme;
 pub use slices::Porosity;
+pub use stream::Stream;
 pub use touching::Touching;
 pub use walls::Wall;
 
@@ -34,8 +37,9 @@ use crate::neighbours::{Record, Search, in_widest};
 use contacts::PairSweep;
 use crew::Crew;
 use driven::Driven;
+use exchange::smallest_diameter;
 use motion::{KickAndDrift, Stride};
-use pairs::PairList;
+use pairs::{Memories, PairList};
 use sleep::Sleep;
 use walls::{WallSweep, Walls};
 
@@ -117,11 +121,7 @@ impl Bed {
         listing: Listing,
         porosity: Option<Porosity>,
     ) -> Self {
-        let smallest = grains
-            .spheres()
-            .iter()
-            .map(|sphere| 2.0 * sphere.0[3])
-            .fold(f64::INFINITY, f64::min);
+        let smallest = smallest_diameter(&grains);
         let mut bed = Bed {
             forces: vec![Record::default(); grains.motion.len()],
             grains,
@@ -241,13 +241,17 @@ impl Bed {
 
     /// Makes the lists of near pairs anew; contacts keep their histories.
     fn renew_lists(&mut self, fastest: f64) {
-        let way = fastest * self.interaction.time_step;
-        let (search, skin) = match self.listing {
+        let (search, skin) = self.search_and_skin(fastest);
+        self.list_within(search, skin);
+    }
+
+    /// How pairs are found while the fastest grain has a speed [m/s], and the skin of the list [m].
+    fn search_and_skin(&self, fastest: f64) -> (Search, f64) {
+        match self.listing {
             Listing::EveryStep(search) => (search, NO_SKIN),
             Listing::Skin(Some(skin)) => (Search::Grid, skin * self.smallest),
-            Listing::Skin(None) => (Search::Grid, self.skin_for(way)),
-        };
-        self.list_within(search, skin);
+            Listing::Skin(None) => (Search::Grid, self.skin_for(fastest * self.interaction.time_step)),
+        }
     }
 
     /// Skin of lists that should last while the fastest go so far in a step [m].
@@ -259,10 +263,14 @@ impl Bed {
     fn list_within(&mut self, search: Search, skin: f64) {
         let grains = &self.grains;
         let count = grains.len();
-        let memories = self
-            .pairs
-            .memories(|places| places.map(|place| grains.number[place as usize]), count);
-        let wall_memories = self.walls.memories(grains);
+        let name = |place: u32| grains.number[place as usize];
+        let memories = self.pairs.memories(|places| places.map(name), count);
+        let wall_memories = self.walls.memories(name, count);
+        self.relist(search, skin, &memories, &wall_memories);
+    }
+
+    /// The same with what contacts remember by the numbers of the grains.
+    fn relist(&mut self, search: Search, skin: f64, memories: &Memories, wall_memories: &Memories) {
         let period = self.interaction.period;
         self.grains.wrap(period);
         self.grains.sort();
@@ -276,9 +284,9 @@ impl Bed {
         self.pairs = PairList::of_grains(grains, search, period, reach, &mut self.work.looked_at);
         self.pairs.recall(
             |places| places.map(|place| grains.number[place as usize]),
-            &memories,
+            memories,
         );
-        self.walls.renew(grains, reach, &wall_memories);
+        self.walls.renew(grains, reach, wall_memories);
         if let Some(crew) = &mut self.crew {
             crew.learn(&self.pairs, grains);
         }

@@ -9,9 +9,11 @@
 
 use std::f64::consts::PI;
 
-use crate::drag::{self, AnyDrag, LiftLaw, Magnus, Whirl};
+use crate::drag::{self, AnyDrag, LiftLaw, Magnus, Saffman, Whirl};
 use crate::math::{Number, Vector, elementary};
 use crate::neighbours::{LANES, Record, Wide, WideWork};
+
+use super::stream::Stream;
 
 /// Below this the mean decay is a series [-].
 const NEAR: f64 = 0.05;
@@ -29,6 +31,46 @@ pub struct Surroundings {
     pub drag: Option<AnyDrag>,
     /// Whether a grain that spins is lifted across its slip (Magnus).
     pub lift: bool,
+    /// Flow along x; `None` where the fluid flows up and down only.
+    pub stream: Option<Stream>,
+    /// Whether a grain that lags or leads in the shear of the stream is lifted (Saffman).
+    pub shear_lift: bool,
+}
+
+impl Surroundings {
+    /// Velocity of the fluid [m/s] at a height [m] where it flows up with `upward` [m/s].
+    #[inline(always)]
+    pub fn flow<N: Number>(&self, z: N, upward: N) -> Vector<N> {
+        let zero = N::splat(0.0);
+        let along = match &self.stream {
+            Some(stream) => stream.velocity(z),
+            None => zero,
+        };
+        Vector::new(along, zero, upward)
+    }
+
+    /// Force [N] across the slip [m/s] of a grain at a height [m] that spins [rad/s].
+    #[inline(always)]
+    pub fn lift_force<N: Number>(&self, z: N, diameter: N, slip: Vector<N>, spin: Vector<N>) -> Vector<N> {
+        let whirl = Whirl {
+            slip,
+            // Slices flow up or down as a whole.
+            vorticity: match &self.stream {
+                Some(stream) => stream.vorticity(z),
+                None => Vector::zeros(),
+            },
+            spin,
+        };
+        let fluid = [self.fluid_density, self.viscosity];
+        let mut force = Vector::zeros();
+        if self.lift {
+            force = Magnus.force(fluid, diameter, &whirl);
+        }
+        if self.shear_lift {
+            force = force + Saffman.force(fluid, diameter, &whirl);
+        }
+        force
+    }
 }
 
 /// Moves grains on and clears their forces.
@@ -136,21 +178,16 @@ fn eight<W: Wide>(
     let mut push = Vector::new(forces[0], forces[1], forces[2] + buoyancy + neighbours) * inverse_mass;
     push.z = push.z - W::splat(surroundings.gravity);
     let velocity = Vector::new(vx, vy, vz);
-    if surroundings.lift {
-        let whirl = Whirl {
-            slip: Vector::new(W::splat(0.0), W::splat(0.0), fluid) - velocity,
-            // Slices flow up or down as a whole.
-            vorticity: Vector::zeros(),
-            spin: Vector::new(wx, wy, wz),
-        };
-        let medium = [surroundings.fluid_density, surroundings.viscosity];
-        push = push + Magnus.force(medium, radius + radius, &whirl) * inverse_mass;
+    if surroundings.lift || surroundings.shear_lift {
+        let slip = surroundings.flow(z, fluid) - velocity;
+        let spin = Vector::new(wx, wy, wz);
+        push = push + surroundings.lift_force(z, radius + radius, slip, spin) * inverse_mass;
     }
     let kick = W::splat(stride.kick);
     let velocity = match &surroundings.drag {
         None => velocity + push * kick,
         Some(drag) => {
-            let slip = Vector::new(W::splat(0.0), W::splat(0.0), fluid) - velocity;
+            let slip = surroundings.flow(z, fluid) - velocity;
             // Model B: f/ε on the interstitial slip is β of the superficial one.
             let fluid = [surroundings.fluid_density, surroundings.viscosity];
             let superficial = porosity * slip.norm();

@@ -204,8 +204,9 @@ pub struct Memories {
 }
 
 impl Memories {
-    /// `entries` hold the smaller name first; names lie below `count`.
+    /// `entries` hold the smaller name first; those of nobody below `count` are forgotten.
     fn new(mut entries: Vec<(u32, u32, Vector<f64>)>, count: usize) -> Self {
+        entries.retain(|(a, ..)| (*a as usize) < count);
         entries.sort_unstable_by_key(|&(a, b, _)| (a, b));
         let mut starts = vec![0; count + 1];
         for &(a, ..) in &entries {

@@ -6,9 +6,9 @@
 
 use std::f64::consts::PI;
 
-use crate::drag::{self, LiftLaw, Magnus, Whirl};
+use crate::drag;
 use crate::integrator::{Accelerations, Bodies, Forces, Integrator};
-use crate::math::{Vec3, Vector};
+use crate::math::Vec3;
 use crate::neighbours::Record;
 
 use super::pairs::{History, PairList};
@@ -201,15 +201,12 @@ fn acceleration(bed: &Bed, grain: usize) -> Vec3 {
         force[1],
         force[2] + displaced * surroundings.gravity + neighbours,
     );
-    let slip = Vec3::new(0.0, 0.0, flow) - grains.velocity(grain);
+    let z = grains.position(grain).z;
+    let slip = Vec3::from(surroundings.flow(z, flow)) - grains.velocity(grain);
     let fluid = [surroundings.fluid_density, surroundings.viscosity];
-    if surroundings.lift {
-        let whirl = Whirl {
-            slip: slip.into(),
-            vorticity: Vector::zeros(),
-            spin: grains.angular_velocity(grain).into(),
-        };
-        force += Vec3::from(Magnus.force(fluid, 2.0 * radius, &whirl));
+    if surroundings.lift || surroundings.shear_lift {
+        let spin = grains.angular_velocity(grain).into();
+        force += Vec3::from(surroundings.lift_force(z, 2.0 * radius, slip.into(), spin));
     }
     if let Some(law) = &surroundings.drag {
         force += slip * drag::coefficient(law, fluid, 2.0 * radius, porosity * slip.norm(), porosity);

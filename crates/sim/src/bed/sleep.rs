@@ -59,6 +59,21 @@ impl Sleep {
         }
     }
 
+    /// Grains have left, `sleepers` of them asleep, others have come: `renamed` gives the new number of
+    /// every old one.
+    pub fn rename(&mut self, renamed: &[u32], grains: &Grains, sleepers: usize) {
+        let (slow, base) = (std::mem::take(&mut self.slow), std::mem::take(&mut self.base));
+        self.slow.resize(grains.len(), 0);
+        self.base.resize(grains.len(), Record::default());
+        for (old, new) in renamed.iter().enumerate() {
+            if let Some(place) = self.slow.get_mut(*new as usize) {
+                *place = slow[old];
+                self.base[*new as usize] = base[old];
+            }
+        }
+        self.sleepers -= sleepers;
+    }
+
     pub fn all(&self, grains: &Grains) -> bool {
         grains.moving > 0 && self.sleepers == grains.moving
     }

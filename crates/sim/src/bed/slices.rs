@@ -1,8 +1,9 @@
 //! The fluid as grains see it: porosity of their slices, and the flow back through them.
 
 use crate::contact::Body;
-use crate::coupling::slices::{Measure, Slices};
+use crate::coupling::Slices;
 use crate::drag;
+use crate::math::Vec3;
 
 use super::grains::Grains;
 use super::motion::Surroundings;
@@ -21,6 +22,8 @@ pub struct Porosity {
     closed: bool,
     /// Whether grains of several densities share the drag on the mixture.
     mixed: bool,
+    /// Volume flux q [m/s] that leaves through the floor.
+    drawn: f64,
     /// Time in which drag stops the lightest grain [s].
     relaxation: f64,
     way: f64,
@@ -30,19 +33,26 @@ pub struct Porosity {
 }
 
 impl Porosity {
-    /// Slices of a height [m] over a cross-section [m²] (a width [m], by areas).
-    pub fn new(height: f64, area: f64, measure: Measure, closed: bool, mixed: bool, relaxation: f64) -> Self {
+    /// By slices of a height [m].
+    pub fn new(slices: Slices, height: f64, closed: bool, mixed: bool, relaxation: f64) -> Self {
         Porosity {
-            slices: Slices::new(0.0, height, area, measure),
+            slices,
             height,
             closed,
             mixed,
+            drawn: 0.0,
             relaxation,
             way: f64::INFINITY,
             time: f64::INFINITY,
             sums: Vec::new(),
             refreshes: 0,
         }
+    }
+
+    /// Draws a volume flux q [m/s] through the floor from now on: in a closed vessel that of fluid and
+    /// grains together, u_f = (−q − (1 − ε)⟨v⟩)/ε, else the fluid's velocity itself.
+    pub fn draw(&mut self, flux: f64) {
+        self.drawn = flux;
     }
 
     /// Slices held at the least porosity, counted at every refresh.
@@ -76,9 +86,17 @@ impl Porosity {
         if self.closed {
             let speeds = records.iter().map(|record| record.0[6]);
             self.slices.return_flow(speeds, &mut self.sums);
+            for (flow, porosity) in self.sums.iter_mut().zip(self.slices.porosity()) {
+                *flow -= self.drawn / porosity;
+            }
             for (grain, spin) in grains.spin[..moving].iter_mut().enumerate() {
                 spin.0[5] = self.slices.sample(grain, &self.sums);
             }
+        }
+        if !self.closed {
+            grains.spin[..moving]
+                .iter_mut()
+                .for_each(|spin| spin.0[5] = 0.0 - self.drawn);
         }
         if self.mixed {
             self.share_drag(grains, surroundings);
@@ -95,7 +113,8 @@ impl Porosity {
         let drags: Vec<f64> = (0..moving)
             .map(|grain| {
                 let [.., porosity, flow, _, _] = grains.spin[grain].0;
-                let slip = crate::math::Vec3::new(0.0, 0.0, flow) - grains.velocity(grain);
+                let z = grains.position(grain).z;
+                let slip = Vec3::from(surroundings.flow(z, flow)) - grains.velocity(grain);
                 let superficial = porosity * slip.norm();
                 let diameter = 2.0 * grains.radius(grain);
                 porosity * slip.z * drag::coefficient(law, fluid, diameter, superficial, porosity)

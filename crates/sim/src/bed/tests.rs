@@ -24,6 +24,8 @@ const SPACE: Surroundings = Surroundings {
     viscosity: 0.0,
     drag: None,
     lift: false,
+    stream: None,
+    shear_lift: false,
 };
 
 fn normals() -> Vec<AnyNormal> {

@@ -75,19 +75,21 @@ impl Walls {
             }
         };
         self.list = PairList::new(pairs.into_iter(), standing, [grains.len() as u32, 0]);
-        self.list.recall(|places| names(grains, places), memories);
+        let names = |[grain, wall]: [u32; 2]| [grains.number[grain as usize], wall_name(wall)];
+        self.list.recall(names, memories);
     }
 
     /// What the contacts with walls remember, to outlive the list.
-    pub fn memories(&self, grains: &Grains) -> super::pairs::Memories {
-        let count = grains.len() + self.walls.len();
-        self.list.memories(|places| names(grains, places), count)
+    /// `name` gives the number of the grain at a place, `count` is that of the grains.
+    pub fn memories(&self, name: impl Fn(u32) -> u32, count: usize) -> super::pairs::Memories {
+        let names = |[grain, wall]: [u32; 2]| [name(grain), wall_name(wall)];
+        self.list.memories(names, count)
     }
 }
 
-/// Walls are named after the last grain.
-fn names(grains: &Grains, [grain, wall]: [u32; 2]) -> [u32; 2] {
-    [grains.number[grain as usize], grains.len() as u32 + wall]
+/// Walls are named from the last number down: grains may come and go.
+fn wall_name(wall: u32) -> u32 {
+    u32::MAX - wall
 }
 
 /// Adds the forces of the walls. Returns the greatest overlap over the diameter.

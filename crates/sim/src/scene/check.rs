@@ -18,13 +18,17 @@ pub fn check(scene: &Scene) -> Vec<Fault> {
         Scene::BinaryCollision(collision) => super::collision::check(collision, &mut list),
         Scene::Sedimentation(sedimentation) => super::sedimentation::check(sedimentation, &mut list),
         Scene::Suspension(suspension) => super::suspension::check(suspension, &mut list),
+        Scene::Filtration(filtration) => super::filtration::check(filtration, &mut list),
     }
     // The safe step follows from numbers that must make sense first.
     if list.0.is_empty() {
         match scene {
             Scene::SingleSphere(sphere) => time_step(&Settling::of_sphere(sphere), &mut list),
             Scene::ConstantPorosityBlock(block) => time_step(&Settling::of_block(block), &mut list),
-            Scene::BinaryCollision(_) | Scene::Sedimentation(_) | Scene::Suspension(_) => {}
+            Scene::BinaryCollision(_)
+            | Scene::Sedimentation(_)
+            | Scene::Suspension(_)
+            | Scene::Filtration(_) => {}
         }
     }
     list.0

@@ -18,6 +18,7 @@ pub fn describe(scene: &Scene) -> Description {
         Scene::BinaryCollision(collision) => return super::collision::describe(collision),
         Scene::Sedimentation(scene) => return super::sedimentation::describe(scene),
         Scene::Suspension(scene) => return super::suspension::describe(scene),
+        Scene::Filtration(scene) => return super::filtration::describe(scene),
     };
     let (dt, steps) = settling.steps();
     let grains = settling.positions().len() as u64;

@@ -5,9 +5,27 @@ use crate::bed::{Astray, Bed};
 /// Overlap over the smaller diameter at which a run counts as diverged [-].
 const DEEPEST: f64 = 0.05;
 
-/// What is wrong with a bed at `time` [s]: motion that is not finite, an overlap `deepest` [-] beyond 5 % of a
-/// diameter, or a kinetic energy over `most` [J].
-pub fn diverged(bed: &Bed, deepest: f64, most: f64, time: f64) -> Option<String> {
+/// What a run is judged by.
+#[derive(Clone, Copy, Debug)]
+pub struct Signs {
+    /// [s]
+    pub time: f64,
+    /// The most energy the grains can have [J], above zero, and where it comes from.
+    pub most: f64,
+    pub source: &'static str,
+    /// Greatest overlap since the last time over the smaller diameter [-].
+    pub deepest: f64,
+}
+
+/// What is wrong with a bed: motion that is not finite, an overlap beyond 5 % of a diameter, or twice the
+/// kinetic energy that it can have.
+pub fn diverged(bed: &Bed, signs: &Signs) -> Option<String> {
+    let Signs {
+        time,
+        most,
+        source,
+        deepest,
+    } = *signs;
     let kinetic = kinetic_energy(bed);
     if !kinetic.is_finite() || bed.astray_spin().is_some() {
         let grain = bed.astray_spin().unwrap_or(0);
@@ -24,9 +42,9 @@ pub fn diverged(bed: &Bed, deepest: f64, most: f64, time: f64) -> Option<String>
             deepest_now(bed)
         ));
     }
-    (kinetic > most && most > 0.0).then(|| {
+    (kinetic > 2.0 * most && most > 0.0).then(|| {
         format!(
-            "the kinetic energy {kinetic:.3e} J at t = {time:.6e} s is over twice the work of gravity; fastest: {}",
+            "the kinetic energy {kinetic:.3e} J at t = {time:.6e} s is over twice {source}; fastest: {}",
             fastest(bed)
         )
     })

@@ -4,6 +4,7 @@ mod check;
 mod collision;
 mod describe;
 mod divergence;
+mod filtration;
 mod observables;
 mod passage;
 mod profiles;
@@ -18,10 +19,13 @@ mod suspension;
 pub use check::check;
 pub use collision::{BinaryCollision, IntegratorChoice, Material, Normal, Partner, Rolling, Tangential};
 pub use describe::describe;
+pub use filtration::{
+    CakeLength, CakePermeability, Crossflow, Deposited, Feed, Filtrate, Filtration, Held, Resistance,
+};
 pub use observables::observables;
 pub use sedimentation::{
-    Arrangement, Charge, Cohesion, Container, Detection, Dimensions, Floor, GrainClass, GrainDrag, Lift,
-    Placed, Sedimentation, Sides, SlicePorosity, Snapshot, StillFluid, Until, Voidage,
+    Arrangement, Charge, Cohesion, Container, Detection, Dimensions, Floor, FloorGrains, GrainClass,
+    GrainDrag, Lift, Placed, Sedimentation, Sides, SlicePorosity, Snapshot, StillFluid, Until, Voidage,
 };
 pub use suspension::{Homogeneity, SoftContact, SuspendedClass, SuspendingFluid, Suspension};
 
@@ -35,6 +39,7 @@ pub enum Scene {
     BinaryCollision(BinaryCollision),
     Sedimentation(Sedimentation),
     Suspension(Suspension),
+    Filtration(Filtration),
 }
 
 impl Scene {
@@ -43,6 +48,7 @@ impl Scene {
         match self {
             Scene::Sedimentation(scene) => scene.threads,
             Scene::Suspension(scene) => scene.threads,
+            Scene::Filtration(scene) => scene.bed.threads,
             Scene::SingleSphere(_) | Scene::ConstantPorosityBlock(_) | Scene::BinaryCollision(_) => 1,
         }
     }
@@ -345,6 +351,7 @@ pub fn run(scene: &Scene, control: &Control) -> Result<Outcome, Box<Failure>> {
         Scene::BinaryCollision(collision) => return collision::run(collision, control),
         Scene::Sedimentation(scene) => return sedimentation::run(scene, control),
         Scene::Suspension(scene) => return suspension::run(scene, control),
+        Scene::Filtration(scene) => return filtration::run(scene, control),
     };
     match settling.sph() {
         Some(sph) => setup::with_law!(settling.drag, law => run_sph::run(&settling, sph, law, control)),

@@ -228,6 +228,7 @@ pub fn observables(scene: &Scene) -> Vec<Observable> {
         Scene::BinaryCollision(collision) => return super::collision::observables(collision),
         Scene::Sedimentation(scene) => return super::sedimentation::observables(scene),
         Scene::Suspension(scene) => return super::suspension::observables(scene),
+        Scene::Filtration(scene) => return super::filtration::observables(scene),
     };
     let particles = if settling.sph().is_some() {
         PARTICLES

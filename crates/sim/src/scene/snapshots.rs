@@ -3,7 +3,8 @@
 use crate::bed::Bed;
 use crate::outcome::{Column, Table};
 
-const FIELDS: [(&str, &str); 9] = [
+const FIELDS: [(&str, &str); 10] = [
+    ("grain", "1"),
     ("class", "1"),
     ("x", "m"),
     ("y", "m"),
@@ -24,7 +25,7 @@ pub struct Snapshots {
 }
 
 /// A time [s] and a row per grain, by number.
-type Snapshot = (f64, Vec<[f64; 9]>);
+type Snapshot = (f64, Vec<[f64; FIELDS.len()]>);
 
 impl Snapshots {
     /// None below two.
@@ -36,32 +37,30 @@ impl Snapshots {
         }
     }
 
-    /// Keeps the bed at `time` [s] where a snapshot is due within half a step of `dt` [s].
-    pub fn keep(&mut self, bed: &Bed, contacts: &[u16], time: f64, dt: f64) {
+    /// Keeps the bed at `time` [s] where a snapshot is due within half a step of `dt` [s]. `contacts`
+    /// counts those of each place, none where it is empty; `name` tells the number that a grain is known
+    /// by from that in the bed.
+    pub fn keep(&mut self, bed: &Bed, contacts: &[u16], [time, dt]: [f64; 2], name: impl Fn(u32) -> u32) {
         if self.wanted < 2 {
             return;
         }
         let due = self.kept.len() as f64 * self.duration / f64::from(self.wanted - 1);
         if time + 0.5 * dt >= due {
-            self.kept.push(snapshot(bed, contacts, time));
+            self.kept.push(snapshot(bed, contacts, time, name));
         }
     }
 
     /// All that are kept; the bed at `time` [s] as well where the run has ended early.
-    pub fn table(&self, bed: &Bed, contacts: &[u16], time: f64) -> Option<Table> {
+    pub fn table(&self, bed: &Bed, contacts: &[u16], time: f64, name: impl Fn(u32) -> u32) -> Option<Table> {
         if self.wanted < 2 {
             return None;
         }
         let missing = self.kept.last().is_none_or(|(kept, _)| *kept < time);
-        let last = missing.then(|| snapshot(bed, contacts, time));
+        let last = missing.then(|| snapshot(bed, contacts, time, name));
         let all = || self.kept.iter().chain(&last);
         let rows = || all().flat_map(|(_, rows)| rows);
         let times = all().flat_map(|(time, rows)| rows.iter().map(|_| *time));
-        let numbers = all().flat_map(|(_, rows)| (0..rows.len()).map(|number| number as f64));
-        let mut columns = vec![
-            column("time", "s", times.collect()),
-            column("grain", "1", numbers.collect()),
-        ];
+        let mut columns = vec![column("time", "s", times.collect())];
         columns.extend(
             FIELDS
                 .iter()
@@ -75,8 +74,7 @@ impl Snapshots {
     }
 }
 
-/// `contacts` by place; none where it is empty.
-fn snapshot(bed: &Bed, contacts: &[u16], time: f64) -> Snapshot {
+fn snapshot(bed: &Bed, contacts: &[u16], time: f64, name: impl Fn(u32) -> u32) -> Snapshot {
     let grains = &bed.grains;
     let row = |place: u32| {
         let grain = place as usize;
@@ -87,6 +85,7 @@ fn snapshot(bed: &Bed, contacts: &[u16], time: f64) -> Snapshot {
         };
         let contacts = contacts.get(grain).map_or(0.0, |contacts| f64::from(*contacts));
         [
+            f64::from(name(grains.number[grain])),
             class,
             x.x,
             x.y,

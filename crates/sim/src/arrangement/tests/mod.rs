@@ -12,7 +12,7 @@ fn cube(side: f64, periodic: bool) -> Region {
         width: side,
         depth: side,
         height: side,
-        periodic,
+        periodic: [periodic; 2],
         dimensions: Dimensions::Three,
     }
 }
@@ -37,7 +37,7 @@ fn side(dimensions: Dimensions, radii: &[f64], fraction: f64) -> f64 {
 /// Distance of two centres over all images beyond the sides.
 fn distance(region: &Region, a: &Vec3, b: &Vec3) -> f64 {
     let difference = a - b;
-    let (sideways, across) = match (region.periodic, region.dimensions) {
+    let (sideways, across) = match (region.periodic[0], region.dimensions) {
         (false, _) => (0, 0),
         (true, Dimensions::Two) => (1, 0),
         (true, Dimensions::Three) => (1, 1),
@@ -67,7 +67,7 @@ fn largest_overlap(region: &Region, radii: &[f64], positions: &[Vec3]) -> f64 {
 fn largest_escape(region: &Region, radii: &[f64], positions: &[Vec3]) -> f64 {
     let mut worst = f64::NEG_INFINITY;
     for (position, &radius) in positions.iter().zip(radii) {
-        let margin = if region.periodic { 0.0 } else { radius };
+        let margin = if region.periodic[0] { 0.0 } else { radius };
         let mut outside = |x: f64, length: f64, margin: f64| {
             assert!(x.is_finite());
             worst = worst.max(margin - x).max(x + margin - length);

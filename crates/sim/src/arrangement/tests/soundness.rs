@@ -198,7 +198,7 @@ proptest! {
         seed in any::<u64>(),
     ) {
         let dimensions = if flat { Dimensions::Two } else { Dimensions::Three };
-        let region = Region { width, depth, height, periodic, dimensions };
+        let region = Region { width, depth, height, periodic: [periodic; 2], dimensions };
         let mut generator = Random::new(seed);
         let mut radii = Vec::new();
         while region.solids_fraction(&radii) < fraction && radii.len() < 400 {

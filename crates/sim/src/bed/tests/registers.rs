@@ -20,6 +20,8 @@ fn bits<W: Wide>(interaction: Interaction, walls: &[Wall], drag: AnyDrag) -> Vec
         viscosity: 1e-3,
         drag: Some(drag),
         lift: false,
+        stream: None,
+        shear_lift: false,
     };
     for spin in &mut bed.grains.spin {
         (spin.0[4], spin.0[5], spin.0[6]) = (0.7, 1e-3, 1e-9);

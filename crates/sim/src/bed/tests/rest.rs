@@ -93,6 +93,8 @@ fn settled(grains: Grains, walls: &[Wall], laws: Laws, steps: u64) -> Bed {
             voidage: AnyVoidage::None,
         }),
         lift: false,
+        stream: None,
+        shear_lift: false,
     };
     let mut bed = Bed::new(grains, walls, interaction, water, Listing::Skin(None), None);
     bed.advance(steps).expect("no grain leaps");

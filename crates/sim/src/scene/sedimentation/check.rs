@@ -1,6 +1,8 @@
 //! What of a sedimentation scene cannot be simulated.
 
-use super::model::{Detection, Dimensions, Floor, GrainClass, Sedimentation, SlicePorosity, StillFluid};
+use super::model::{
+    Detection, Dimensions, Floor, FloorGrains, GrainClass, Sedimentation, SlicePorosity, StillFluid,
+};
 use super::room::fits;
 use super::step::{FEWEST_STEPS, Limits, limits, overdamped};
 use crate::contact::EffectiveMass;
@@ -8,18 +10,25 @@ use crate::scene::Normal;
 use crate::scene::check::{List, millimetres, threads_and_snapshots};
 use crate::scene::collision::check_laws;
 
+/// Layers of fixed grains that make a floor.
+const MOST_LAYERS: u32 = 10;
 /// Every class meets every other one when the step is picked.
 const MOST_CLASSES: usize = 64;
 
 pub fn check(scene: &Sedimentation, list: &mut List) {
+    if check_parts(scene, list) {
+        time_step(scene, &limits(scene), list);
+    }
+}
+
+/// Everything but the time step, which may depend on more; says whether it makes sense.
+pub fn check_parts(scene: &Sedimentation, list: &mut List) -> bool {
     let mut sound = classes(scene, list);
     sound &= container(scene, list);
     sound &= check_laws(&scene.normal, &scene.tangential, &scene.rolling, list);
     sound &= forces(scene, list);
     sound &= switches(scene, list);
-    if sound && fits(scene, list) && parts(scene, list) {
-        time_step(scene, list);
-    }
+    sound && fits(scene, list) && parts(scene, list)
 }
 
 /// Path of a class: a scene with one of them calls it `grains`.
@@ -81,13 +90,27 @@ fn container(scene: &Sedimentation, list: &mut List) -> bool {
     if scene.dimensions == Dimensions::Three {
         sound &= list.positive("container.depth", container.depth);
     }
-    if let Floor::Grains { diameter } = container.floor {
-        sound &= list.positive("container.floor.grains.diameter", diameter);
-        if scene.dimensions == Dimensions::Three {
-            let message = "a floor of grains is known in two dimensions only".to_owned();
-            list.add("container.floor", message, "write `floor: flat`");
-            sound = false;
-        }
+    if let Floor::Grains(floor) = &container.floor {
+        sound &= floor_of_grains(floor, list);
+    }
+    sound
+}
+
+fn floor_of_grains(floor: &FloorGrains, list: &mut List) -> bool {
+    let path = |name: &str| format!("container.floor.grains.{name}");
+    let mut sound = list.positive(&path("diameter"), floor.diameter);
+    sound &= list.not_negative(&path("gap"), floor.gap);
+    if !(1..=MOST_LAYERS).contains(&floor.layers) {
+        let message = format!(
+            "`layers` is {}, it must lie between 1 and {MOST_LAYERS}",
+            floor.layers
+        );
+        list.add(
+            &path("layers"),
+            message,
+            "one or two hold grains of their own size",
+        );
+        sound = false;
     }
     sound
 }
@@ -187,11 +210,10 @@ fn parts(scene: &Sedimentation, list: &mut List) -> bool {
 }
 
 /// Refuses a step beyond the longest safe one.
-pub fn time_step(scene: &Sedimentation, list: &mut List) {
+pub fn time_step(scene: &Sedimentation, limits: &Limits, list: &mut List) {
     if scene.unsafe_time_step {
         return;
     }
-    let limits = limits(scene);
     match scene.time_step {
         // A step exactly at the limit is meant to be safe.
         Some(step) if step > limits.longest * (1.0 + 1e-9) => {

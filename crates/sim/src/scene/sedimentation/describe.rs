@@ -23,21 +23,30 @@ const ROW_MEMORY: f64 = 11.0 * 8.0 * 2.0;
 
 pub fn describe(scene: &Sedimentation) -> Description {
     let limits = limits(scene);
+    let mut description = work(scene, &limits, scene.grains() as f64);
+    grains_in_words(scene, &start_in_words(scene), &mut description);
+    describe_laws(&scene.normal, &scene.tangential, &scene.rolling, &mut description);
+    let fluid = match scene.fluid {
+        StillFluid::Still(_) => "fluid at rest everywhere",
+        StillFluid::Column(_) => "closed column: the fluid flows back through the grains",
+    };
+    forces_in_words(scene, fluid, &mut description);
+    run_in_words(scene, &mut description);
+    numbers(scene, &limits, &mut description);
+    warnings(scene, &limits, fall(scene), &mut description);
+    description
+}
+
+/// Steps and the work of so many grains, on average, over the whole run.
+pub fn work(scene: &Sedimentation, limits: &Limits, grains: f64) -> Description {
     let steps = (scene.duration / limits.time_step).ceil().max(1.0);
-    let grains = scene.grains() as f64;
-    let mut description = Description {
+    Description {
         grains: scene.grains(),
         steps: steps as u64,
         work: steps * grains * step_cost(scene, grains),
         memory: (MEMORY + grains * (GRAIN_MEMORY + f64::from(scene.snapshots) * ROW_MEMORY)) as u64,
         ..Description::default()
-    };
-    grains_in_words(scene, &mut description);
-    describe_laws(&scene.normal, &scene.tangential, &scene.rolling, &mut description);
-    forces_in_words(scene, &mut description);
-    run_in_words(scene, &mut description);
-    numbers(scene, &limits, &mut description);
-    description
+    }
 }
 
 /// Cost of a grain's step among so many, over that of a fluid particle.
@@ -54,12 +63,9 @@ fn step_cost(scene: &Sedimentation, grains: f64) -> f64 {
     evaluations * (GRAIN_COST + search)
 }
 
-fn grains_in_words(scene: &Sedimentation, description: &mut Description) {
-    let dimensions = match scene.dimensions {
-        Dimensions::Two => "spheres whose centres stay in a plane",
-        Dimensions::Three => "spheres in space",
-    };
-    let arrangement = match &scene.arrangement {
+/// `start at random …`
+pub fn start_in_words(scene: &Sedimentation) -> String {
+    match &scene.arrangement {
         Arrangement::Random => "start at random, without overlap, over the whole box".to_owned(),
         Arrangement::Even => "start at random, without overlap, evenly over the whole box".to_owned(),
         Arrangement::Lattice => "start on a cubic lattice shaken by a hundredth of its pitch".to_owned(),
@@ -70,10 +76,16 @@ fn grains_in_words(scene: &Sedimentation, description: &mut Description) {
             "start where the last instant of `{}` left them, without spin, contacts without a history",
             snapshot.file
         ),
+    }
+}
+
+/// What the grains are, where they start, and what holds them.
+pub fn grains_in_words(scene: &Sedimentation, start: &str, description: &mut Description) {
+    let dimensions = match scene.dimensions {
+        Dimensions::Two => "spheres whose centres stay in a plane",
+        Dimensions::Three => "spheres in space",
     };
-    description
-        .active
-        .push(format!("{dimensions}; they {arrangement}"));
+    description.active.push(format!("{dimensions}; they {start}"));
     let sizes = scene.classes.iter().any(|class| class.largest() > class.diameter);
     if sizes {
         description
@@ -82,12 +94,20 @@ fn grains_in_words(scene: &Sedimentation, description: &mut Description) {
     }
     let floor = match scene.container.floor {
         Floor::Flat => "a flat floor",
-        Floor::Grains { .. } => "a floor of fixed grains",
+        Floor::Grains(_) => "a floor of fixed grains",
     };
     match scene.container.sides {
         Sides::Walls => description.active.push(format!(
             "flat side walls and {floor} with the contact law of the grains"
         )),
+        Sides::PeriodicAlongX => {
+            description.active.push(format!(
+                "flat walls across y and {floor} with the contact law of the grains"
+            ));
+            description
+                .left_out
+                .push("walls across x: the box repeats itself along x".to_owned());
+        }
         Sides::Periodic => {
             description
                 .active
@@ -99,7 +119,8 @@ fn grains_in_words(scene: &Sedimentation, description: &mut Description) {
     }
 }
 
-fn forces_in_words(scene: &Sedimentation, description: &mut Description) {
+/// What acts on the grains, but for the fluid's flow.
+pub fn forces_in_words(scene: &Sedimentation, fluid: &str, description: &mut Description) {
     let mut force = |active: Option<String>, left_out: &str| match active {
         Some(words) => description.active.push(words),
         None => description.left_out.push(left_out.to_owned()),
@@ -127,10 +148,6 @@ fn forces_in_words(scene: &Sedimentation, description: &mut Description) {
     force(drag(scene), "drag: grains fall freely but for buoyancy");
     let lift = (scene.lift == Lift::Magnus).then(|| "Magnus lift of spinning grains".to_owned());
     force(lift, "lift: none is asked for");
-    let fluid = match scene.fluid {
-        StillFluid::Still(_) => "fluid at rest everywhere",
-        StillFluid::Column(_) => "closed column: the fluid flows back through the grains",
-    };
     force(Some(format!("{fluid}; buoyancy of the pure fluid (model B)")), "");
     let slices = match scene.porosity {
         SlicePorosity::Exact => "exact volumes of spheres",
@@ -167,7 +184,8 @@ fn drag(scene: &Sedimentation) -> Option<String> {
     Some(format!("{law} on the superficial slip{voidage}"))
 }
 
-fn run_in_words(scene: &Sedimentation, description: &mut Description) {
+/// How the run goes.
+pub fn run_in_words(scene: &Sedimentation, description: &mut Description) {
     description.active.push(integrator(scene.integrator));
     description.active.push(match scene.detection {
         Detection::List { .. } => "list of near pairs with a skin".to_owned(),
@@ -205,7 +223,8 @@ fn fastest(scene: &Sedimentation) -> Option<(Body, f64, f64)> {
         .max_by(|one, other| one.2.total_cmp(&other.2))
 }
 
-fn numbers(scene: &Sedimentation, limits: &Limits, description: &mut Description) {
+/// Dimensionless numbers, speeds, contacts and the step.
+pub fn numbers(scene: &Sedimentation, limits: &Limits, description: &mut Description) {
     let Some((grain, density, speed)) = fastest(scene) else {
         return;
     };
@@ -253,12 +272,19 @@ fn numbers(scene: &Sedimentation, limits: &Limits, description: &mut Description
     if let Some(force) = repulsion.filter(|_| weight > 0.0) {
         add("Coulomb's force in contact over weight", force / weight, "1");
     }
-    let fall = scene.container.height / among.map_or(speed, |among| among.min(speed));
-    warnings(scene, limits, fall, bond, description);
+}
+
+/// Time in which a grain falls through the box [s].
+fn fall(scene: &Sedimentation) -> f64 {
+    let Some((grain, density, speed)) = fastest(scene) else {
+        return 0.0;
+    };
+    let among = scene.settling_speed(&grain, density, 1.0 - scene.solids_fraction());
+    scene.container.height / among.map_or(speed, |among| among.min(speed))
 }
 
 /// Largest attraction of two equal grains over the weight of one, H R/(12 h² m g).
-fn bond_number(scene: &Sedimentation) -> Option<f64> {
+pub fn bond_number(scene: &Sedimentation) -> Option<f64> {
     let cohesion = scene.cohesion?;
     let ratio = |(grain, _): &(Body, f64)| {
         let force = cohesion.hamaker * grain.radius / (12.0 * cohesion.smallest_gap.powi(2));

@@ -1,24 +1,26 @@
 //! Many grains settle onto the floor of a box.
 
-mod check;
-mod describe;
-mod growth;
-mod interior;
-mod model;
-mod observables;
-mod observe;
-mod population;
-mod room;
-mod run;
-mod settling;
-mod snapshot;
-mod start;
-mod step;
-mod warnings;
+pub(super) mod check;
+pub(super) mod describe;
+pub(super) mod floor;
+pub(super) mod growth;
+pub(super) mod interior;
+pub(super) mod model;
+pub(super) mod mover;
+pub(super) mod observables;
+pub(super) mod observe;
+pub(super) mod population;
+pub(super) mod room;
+pub(super) mod run;
+pub(super) mod settling;
+pub(super) mod snapshot;
+pub(super) mod start;
+pub(super) mod step;
+pub(super) mod warnings;
 
 pub use model::{
-    Arrangement, Charge, Cohesion, Container, Detection, Dimensions, Floor, GrainClass, GrainDrag, Lift,
-    Placed, Sedimentation, Sides, SlicePorosity, Snapshot, StillFluid, Until, Voidage,
+    Arrangement, Charge, Cohesion, Container, Detection, Dimensions, Floor, FloorGrains, GrainClass,
+    GrainDrag, Lift, Placed, Sedimentation, Sides, SlicePorosity, Snapshot, StillFluid, Until, Voidage,
 };
 
 pub(super) use check::{check, class_path, time_step};

@@ -88,14 +88,27 @@ pub enum Sides {
     /// Flat rigid walls with the contact law of the grains.
     Walls,
     Periodic,
+    /// Periodic along x, flat rigid walls across y.
+    PeriodicAlongX,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Floor {
     /// A flat rigid wall.
     Flat,
-    /// Fixed grains side by side of this diameter [m], their centres at z = 0.
-    Grains { diameter: f64 },
+    /// Fixed grains, side by side or a little apart, the centres of the upper layer at z = 0.
+    Grains(FloorGrains),
+}
+
+/// Rows of equal fixed grains, in three dimensions square nets; each lies in the hollows of the one over it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FloorGrains {
+    /// [m]
+    pub diameter: f64,
+    /// Widest gap between neighbours [m]: a whole number of them fills the width.
+    pub gap: f64,
+    /// Layers, one or more.
+    pub layers: u32,
 }
 
 #[derive(Clone, Debug, PartialEq)]

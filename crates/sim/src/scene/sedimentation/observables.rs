@@ -61,7 +61,7 @@ pub fn observables(scene: &Sedimentation) -> Vec<Observable> {
     let own = match (scene.dimensions, scene.container.sides) {
         (Dimensions::Two, _) => PLANE,
         (Dimensions::Three, Sides::Walls) => BETWEEN_WALLS,
-        (Dimensions::Three, Sides::Periodic) => &[],
+        (Dimensions::Three, Sides::Periodic | Sides::PeriodicAlongX) => &[],
     };
     // Without snapshots there is no table of them, and without floor grains no size of theirs.
     let floor = scene.container.floor != Floor::Flat;

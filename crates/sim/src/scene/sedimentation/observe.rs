@@ -28,16 +28,21 @@ impl Settled {
     /// `before` holds the positions of all numbers one window ago [m], `speed` a terminal speed [m/s].
     pub fn of(bed: &Bed, before: Option<&[Vec3]>, speed: f64) -> Settled {
         let grains = &bed.grains;
-        let touching = bed.contacts();
-        let contacts = touching.numbers(grains.len());
-        let quiet = |grain: usize| {
+        Settled::carried(bed, |grain: usize| {
             let still = grains.velocity(grain).norm() < SETTLED_SPEED * speed;
             let number = grains.number[grain] as usize;
             let moved = before.map_or(f64::INFINITY, |before| {
                 bed.nearest(grains.position(grain) - before[number]).norm()
             });
             still && moved < SETTLED_WAY * 2.0 * grains.radius(grain)
-        };
+        })
+    }
+
+    /// Those that a chain of grains like `quiet` carries, by place.
+    pub fn carried(bed: &Bed, quiet: impl Fn(usize) -> bool) -> Settled {
+        let grains = &bed.grains;
+        let touching = bed.contacts();
+        let contacts = touching.numbers(grains.len());
         let mut settled = vec![false; grains.len()];
         let mut neighbours = vec![Vec::new(); grains.len()];
         for &[i, j] in &touching.pairs {
@@ -79,6 +84,8 @@ impl Settled {
 pub struct Measures {
     /// From the lowest to the highest point of settled grains [m].
     pub thickness: f64,
+    /// Those points [m].
+    pub ends: [f64; 2],
     /// Porosity of the central slice, of the central half, and by centres [-].
     pub porosity: f64,
     pub porosity_half: f64,
@@ -130,6 +137,7 @@ impl Measures {
         if number > 0 && high > low {
             measures.thickness = high - low;
             measures.coordination = coordination / number as f64;
+            measures.ends = [low, high];
             measures.of_bed(scene, bed, [low, high]);
         }
         let mut mass = 0.0;

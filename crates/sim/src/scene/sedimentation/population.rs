@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::model::{Dimensions, GrainClass, Sedimentation};
+use super::model::{Dimensions, GrainClass, Sedimentation, Sides};
 use crate::contact::Body;
 
 impl GrainClass {
@@ -12,12 +12,12 @@ impl GrainClass {
     }
 
     /// Mean of d² over the class [m²]; with p(R) = R₁R₂/((R₂ − R₁)R²) it is d₁ d₂.
-    fn mean_square(&self) -> f64 {
+    pub fn mean_square(&self) -> f64 {
         self.diameter * self.largest()
     }
 
     /// Mean of d³ over the class [m³]; with the same density d₁ d₂ (d₁ + d₂)/2.
-    fn mean_cube(&self) -> f64 {
+    pub fn mean_cube(&self) -> f64 {
         self.mean_square() * 0.5 * (self.diameter + self.largest())
     }
 }
@@ -54,6 +54,15 @@ impl Sedimentation {
         }
     }
 
+    /// Whether the box repeats itself along x, along y.
+    pub fn periodic(&self) -> [bool; 2] {
+        match self.container.sides {
+            Sides::Walls => [false; 2],
+            Sides::Periodic => [true; 2],
+            Sides::PeriodicAlongX => [true, false],
+        }
+    }
+
     /// Expected share of the box that the grains fill [-]: of its volume, in two dimensions of its area.
     pub fn filled(&self) -> f64 {
         let plane = self.container.width * self.container.height;
@@ -77,6 +86,16 @@ impl Sedimentation {
             .iter()
             .map(|class| f64::from(class.number) * class.mean_cube());
         PI / 6.0 * volumes.sum::<f64>()
+    }
+
+    /// Diameter [m] of equal spheres with as much surface per volume, expected.
+    pub fn sauter_diameter(&self) -> f64 {
+        let sum = |mean: fn(&GrainClass) -> f64| -> f64 {
+            self.present()
+                .map(|class| f64::from(class.number) * mean(class))
+                .sum()
+        };
+        sum(GrainClass::mean_cube) / sum(GrainClass::mean_square)
     }
 
     /// Volume fraction of the grains in the box as the fluid sees it [-].

@@ -1,6 +1,6 @@
 //! Whether the grains of a scene fit their box.
 
-use super::model::{Arrangement, Dimensions, Sedimentation, Sides};
+use super::model::{Arrangement, Dimensions, Sedimentation};
 use super::snapshot;
 use crate::scene::check::{List, millimetres};
 
@@ -12,17 +12,15 @@ const FEWEST_ACROSS: f64 = 3.0;
 /// Whether the grains fit the box.
 pub fn fits(scene: &Sedimentation, list: &mut List) -> bool {
     let container = &scene.container;
-    let mut sides = vec![("width", container.width)];
+    let [along, across] = scene.periodic();
+    let mut sides = vec![("width", container.width, along)];
     if scene.dimensions == Dimensions::Three {
-        sides.push(("depth", container.depth));
+        sides.push(("depth", container.depth, across));
     }
-    let across = match container.sides {
-        Sides::Walls => 1.0,
-        Sides::Periodic => FEWEST_ACROSS,
-    };
-    let narrow = sides
-        .iter()
-        .filter(|(name, side)| !wide_enough(scene, name, *side, across, list));
+    let narrow = sides.iter().filter(|(name, side, periodic)| {
+        let fewest = if *periodic { FEWEST_ACROSS } else { 1.0 };
+        !wide_enough(scene, name, *side, fewest, list)
+    });
     let mut sound = narrow.count() == 0;
     sound &= wide_enough(scene, "height", container.height, 1.0, list);
     sound && dilute_enough(scene, list) && arranged(scene, list)

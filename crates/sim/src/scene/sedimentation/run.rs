@@ -4,15 +4,14 @@ use std::f64::consts::PI;
 
 use super::growth::Growth;
 use super::model::{Dimensions, Floor, Sedimentation, Sides, Until};
+use super::mover::{Mover, failed};
 use super::observe::{Measures, Settled, porosity_interior, profile, whole_area_porosity};
 use super::start::start;
 use super::step::limits;
-use crate::bed::{Astray, Bed, Scheme};
-use crate::integrator::{Gear, RungeKutta4};
+use crate::bed::Bed;
 use crate::math::Vec3;
 use crate::outcome::{Column, Control, Counters, Failure, FailureKind, Outcome, Scalar, Table};
-use crate::scene::IntegratorChoice;
-use crate::scene::divergence::{diverged, leapt};
+use crate::scene::divergence::{Signs, diverged, leapt};
 use crate::scene::snapshots::Snapshots;
 
 /// Rows of the time series in a second of simulated time, at least and at most in a run.
@@ -67,7 +66,7 @@ pub fn run(scene: &Sedimentation, control: &Control) -> Result<Outcome, Box<Fail
             }
         }
         watch.look(done);
-        if let Some(reason) = watch.diverged(done) {
+        if let Some(reason) = watch.diverged() {
             return Err(failed(FailureKind::Diverged, reason, watch.outcome()));
         }
         (control.progress)(row as f64 / rows);
@@ -76,42 +75,6 @@ pub fn run(scene: &Sedimentation, control: &Control) -> Result<Outcome, Box<Fail
         }
     }
     Ok(watch.outcome())
-}
-
-/// The bed's own steps, or those of a general scheme.
-enum Mover {
-    VelocityVerlet,
-    Gear5(Box<Scheme<Gear<5>>>),
-    Gear6(Box<Scheme<Gear<6>>>),
-    RungeKutta4(Box<Scheme<RungeKutta4>>),
-}
-
-impl Mover {
-    fn start(integrator: IntegratorChoice, bed: &mut Bed) -> Mover {
-        match integrator {
-            IntegratorChoice::VelocityVerlet => Mover::VelocityVerlet,
-            IntegratorChoice::Gear5 => Mover::Gear5(Box::new(Scheme::start(bed))),
-            IntegratorChoice::Gear6 => Mover::Gear6(Box::new(Scheme::start(bed))),
-            IntegratorChoice::RungeKutta4 => Mover::RungeKutta4(Box::new(Scheme::start(bed))),
-        }
-    }
-
-    fn advance(&mut self, bed: &mut Bed, steps: u64) -> Result<(), Astray> {
-        match self {
-            Mover::VelocityVerlet => bed.advance(steps),
-            Mover::Gear5(scheme) => scheme.advance(bed, steps),
-            Mover::Gear6(scheme) => scheme.advance(bed, steps),
-            Mover::RungeKutta4(scheme) => scheme.advance(bed, steps),
-        }
-    }
-}
-
-fn failed(kind: FailureKind, reason: String, partial: Outcome) -> Box<Failure> {
-    Box::new(Failure {
-        kind,
-        reason,
-        partial,
-    })
 }
 
 /// The run as it is recorded.
@@ -184,7 +147,8 @@ impl<'a> Watch<'a> {
         let deepest = std::mem::take(&mut self.bed.deepest);
         self.deepest = self.deepest.max(deepest);
         self.rows.push((time, measures, deepest));
-        self.snapshots.keep(&self.bed, &settled.contacts, time, self.dt);
+        self.snapshots
+            .keep(&self.bed, &settled.contacts, [time, self.dt], |number| number);
         self.settled = Some(settled);
     }
 
@@ -218,11 +182,16 @@ impl<'a> Watch<'a> {
     }
 
     /// Why the run makes no sense any more.
-    fn diverged(&self, done: u64) -> Option<String> {
-        let (.., deepest) = self.rows.last()?;
-        // Nothing can move faster than the fall through the whole box makes it.
-        let most = 2.0 * self.scene.load() * self.scene.container.height;
-        diverged(&self.bed, *deepest, most, done as f64 * self.dt)
+    fn diverged(&self) -> Option<String> {
+        let (time, _, deepest) = self.rows.last()?;
+        let signs = Signs {
+            time: *time,
+            // Nothing can move faster than the fall through the whole box makes it.
+            most: self.scene.load() * self.scene.container.height,
+            source: "the work of gravity",
+            deepest: *deepest,
+        };
+        diverged(&self.bed, &signs)
     }
 
     /// Grains beyond the walls.
@@ -231,14 +200,15 @@ impl<'a> Watch<'a> {
         let container = &self.scene.container;
         let floor = match container.floor {
             Floor::Flat => 0.0,
-            Floor::Grains { diameter } => -0.5 * diameter,
+            Floor::Grains(floor) => -0.5 * floor.diameter,
         };
+        let [along, across] = self.scene.periodic();
         let out = |grain: &usize| {
             let x = grains.position(*grain);
-            let beside = container.sides == Sides::Walls
-                && (x.x < 0.0
-                    || x.x > container.width
-                    || self.scene.dimensions == Dimensions::Three && (x.y < 0.0 || x.y > container.depth));
+            let beside = !along && (x.x < 0.0 || x.x > container.width)
+                || !across
+                    && self.scene.dimensions == Dimensions::Three
+                    && (x.y < 0.0 || x.y > container.depth);
             x.z < floor || beside
         };
         (0..grains.moving).filter(out).count()
@@ -259,7 +229,7 @@ impl<'a> Watch<'a> {
             .settled
             .as_ref()
             .map_or(&[][..], |settled| settled.contacts.as_slice());
-        tables.extend(self.snapshots.table(&self.bed, contacts, time));
+        tables.extend(self.snapshots.table(&self.bed, contacts, time, |number| number));
         let work = &self.bed.work;
         Outcome {
             scalars: self.scalars(),
@@ -291,7 +261,7 @@ impl<'a> Watch<'a> {
             let interior = porosity_interior(self.scene, &self.bed, last.slice);
             add("porosity_interior", "1", interior);
         }
-        if let Floor::Grains { .. } = self.scene.container.floor {
+        if let Floor::Grains(_) = self.scene.container.floor {
             add("floor_grain_diameter", "m", self.floor_grain_diameter());
         }
         add("porosity", "1", last.porosity);

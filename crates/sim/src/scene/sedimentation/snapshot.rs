@@ -1,6 +1,6 @@
 //! A scene that starts where an earlier run has ended.
 
-use super::model::{Dimensions, Floor, GrainClass, Placed, Sedimentation, Sides, Snapshot};
+use super::model::{Dimensions, Floor, GrainClass, Placed, Sedimentation, Snapshot};
 use crate::bed::Grain;
 use crate::contact::Body;
 use crate::math::Vec3;
@@ -107,19 +107,19 @@ fn diameters(kind: &GrainClass) -> String {
 /// The first grain that lies outside the box.
 fn outside(scene: &Sedimentation, grains: &[Placed]) -> Option<String> {
     let container = &scene.container;
-    let walls = container.sides == Sides::Walls;
+    let [along, across] = scene.periodic();
     let between = |value: f64, margin: f64, side: f64| value >= margin && value <= side - margin;
     let inside = |grain: &Placed| {
         let (position, margin) = (grain.position, (1.0 - DEEPEST) * grain.radius);
         let level = match container.floor {
             Floor::Flat => margin,
-            Floor::Grains { .. } => 0.0,
+            Floor::Grains(_) => 0.0,
         };
         let deep = match scene.dimensions {
             Dimensions::Two => position.y.abs() <= ROUNDING * grain.radius,
-            Dimensions::Three => !walls || between(position.y, margin, container.depth),
+            Dimensions::Three => across || between(position.y, margin, container.depth),
         };
-        let wide = !walls || between(position.x, margin, container.width);
+        let wide = along || between(position.x, margin, container.width);
         wide && deep && position.z >= level && position.z <= container.height
     };
     let number = grains.iter().position(|grain| !inside(grain))?;

@@ -2,17 +2,18 @@
 
 use std::f64::consts::PI;
 
+use super::floor::{floor_grains, walls};
 use super::model::{
-    Arrangement, Detection, Dimensions, Floor, GrainDrag, Lift, Sedimentation, Sides, SlicePorosity,
-    StillFluid, Voidage,
+    Arrangement, Detection, Dimensions, Floor, GrainDrag, Lift, Sedimentation, SlicePorosity, StillFluid,
+    Voidage,
 };
 use super::snapshot;
 use super::step::limits;
 use crate::arrangement::{self, Fault, Region};
-use crate::bed::{self, Attraction, Bed, Grain, Grains, Interaction, Listing, Porosity, Surroundings, Wall};
+use crate::bed::{self, Attraction, Bed, Grain, Grains, Interaction, Listing, Porosity, Surroundings};
 use crate::cohesion::VanDerWaals;
 use crate::contact::{Body, ContactLaws, Couple};
-use crate::coupling::slices::Measure;
+use crate::coupling::slices::{Measure, Slices};
 use crate::math::{Random, Vec3};
 use crate::neighbours::Search;
 
@@ -22,38 +23,51 @@ use crate::neighbours::Search;
 /// Grains that do not find room.
 pub fn start(scene: &Sedimentation) -> Result<Bed, Fault> {
     let grains = Grains::new(&moving_grains(scene)?, &floor_grains(scene));
-    let fluid = scene.fluid.medium();
-    let surroundings = Surroundings {
-        gravity: scene.gravity,
-        fluid_density: fluid.density,
-        viscosity: fluid.viscosity,
-        drag: scene.drag_law(),
-        lift: scene.lift == Lift::Magnus,
-    };
-    let listing = match scene.detection {
-        Detection::List { skin } => Listing::Skin(skin),
-        Detection::Cells => Listing::EveryStep(Search::Grid),
-        Detection::BruteForce => Listing::EveryStep(Search::BruteForce),
-    };
+    let interaction = interaction(scene, limits(scene).time_step);
     let bed = Bed::new(
         grains,
         &walls(scene),
-        interaction(scene),
-        surroundings,
-        listing,
+        interaction,
+        surroundings(scene),
+        listing(scene),
         porosity(scene),
     )
     .with_threads(scene.threads as usize);
     Ok(if scene.sleeping { bed.with_sleeping() } else { bed })
 }
 
-fn moving_grains(scene: &Sedimentation) -> Result<Vec<Grain>, Fault> {
+pub fn surroundings(scene: &Sedimentation) -> Surroundings {
+    let fluid = scene.fluid.medium();
+    Surroundings {
+        gravity: scene.gravity,
+        fluid_density: fluid.density,
+        viscosity: fluid.viscosity,
+        drag: scene.drag_law(),
+        lift: scene.lift == Lift::Magnus,
+        stream: None,
+        shear_lift: false,
+    }
+}
+
+pub fn listing(scene: &Sedimentation) -> Listing {
+    match scene.detection {
+        Detection::List { skin } => Listing::Skin(skin),
+        Detection::Cells => Listing::EveryStep(Search::Grid),
+        Detection::BruteForce => Listing::EveryStep(Search::BruteForce),
+    }
+}
+
+/// The grains as the scene arranges them.
+///
+/// # Errors
+/// Grains that do not find room.
+pub fn moving_grains(scene: &Sedimentation) -> Result<Vec<Grain>, Fault> {
     let mut random = Random::new(scene.seed);
     let region = Region {
         width: scene.container.width,
         depth: scene.depth(),
         height: scene.container.height,
-        periodic: scene.container.sides == Sides::Periodic,
+        periodic: scene.periodic(),
         dimensions: match scene.dimensions {
             Dimensions::Two => arrangement::Dimensions::Two,
             Dimensions::Three => arrangement::Dimensions::Three,
@@ -75,7 +89,8 @@ fn moving_grains(scene: &Sedimentation) -> Result<Vec<Grain>, Fault> {
         .map(|((body, class), position)| Grain {
             body,
             class,
-            position: position + lift_of_floor(scene),
+            // Grains start above the tops of those that make the floor.
+            position: position + Vec3::new(0.0, 0.0, scene.floor_top()),
             velocity: Vec3::zeros(),
             angular_velocity: Vec3::zeros(),
         })
@@ -83,7 +98,7 @@ fn moving_grains(scene: &Sedimentation) -> Result<Vec<Grain>, Fault> {
 }
 
 /// Sizes and classes of all moving grains; sizes of a spread class are drawn in turn.
-fn bodies(scene: &Sedimentation, random: &mut Random) -> Vec<(Body, u16)> {
+pub fn bodies(scene: &Sedimentation, random: &mut Random) -> Vec<(Body, u16)> {
     let mut bodies = Vec::new();
     for (class, kind) in scene.classes.iter().enumerate() {
         for _ in 0..kind.number {
@@ -97,70 +112,20 @@ fn bodies(scene: &Sedimentation, random: &mut Random) -> Vec<(Body, u16)> {
     bodies
 }
 
-/// Grains start above the tops of those that make the floor.
-fn lift_of_floor(scene: &Sedimentation) -> Vec3 {
-    match scene.container.floor {
-        Floor::Flat => Vec3::zeros(),
-        Floor::Grains { diameter } => Vec3::new(0.0, 0.0, 0.5 * diameter),
-    }
-}
-
-/// Fixed grains side by side along x, their centres at z = 0.
-fn floor_grains(scene: &Sedimentation) -> Vec<Grain> {
-    let Floor::Grains { diameter } = scene.container.floor else {
-        return Vec::new();
-    };
-    let width = scene.container.width;
-    // Without a gap: the last ones may overlap a little.
-    let count = (width / diameter).ceil() as u32;
-    (0..count)
-        .map(|i| Grain {
-            body: Body::sphere(diameter, 1.0),
-            class: u16::MAX,
-            position: Vec3::new(width * (f64::from(i) + 0.5) / f64::from(count), 0.0, 0.0),
-            velocity: Vec3::zeros(),
-            angular_velocity: Vec3::zeros(),
-        })
-        .collect()
-}
-
-fn walls(scene: &Sedimentation) -> Vec<Wall> {
-    let mut walls = vec![Wall {
-        normal: Vec3::z(),
-        // Under a floor of grains it only catches what falls through.
-        point: match scene.container.floor {
-            Floor::Flat => Vec3::zeros(),
-            Floor::Grains { diameter } => Vec3::new(0.0, 0.0, -diameter - scene.largest_diameter()),
-        },
-    }];
-    if scene.container.sides == Sides::Walls {
-        let far = Vec3::new(scene.container.width, scene.depth(), 0.0);
-        let mut pair = |normal: Vec3| {
-            walls.push(Wall {
-                normal,
-                point: Vec3::zeros(),
-            });
-            walls.push(Wall {
-                normal: -normal,
-                point: far,
-            });
-        };
-        pair(Vec3::x());
-        if scene.dimensions == Dimensions::Three {
-            pair(Vec3::y());
-        }
-    }
-    walls
-}
-
-fn interaction(scene: &Sedimentation) -> Interaction {
+/// Contacts and attraction over a time step [s].
+pub fn interaction(scene: &Sedimentation, time_step: f64) -> Interaction {
     let extremes = scene.extremes();
     let uniform = extremes.len() == 1 && scene.container.floor == Floor::Flat;
-    let period = match scene.container.sides {
-        Sides::Walls => [0.0; 3],
-        Sides::Periodic if scene.dimensions == Dimensions::Two => [scene.container.width, 0.0, 0.0],
-        Sides::Periodic => [scene.container.width, scene.container.depth, 0.0],
-    };
+    let [along, across] = scene.periodic();
+    let period = [
+        if along { scene.container.width } else { 0.0 },
+        if across && scene.dimensions == Dimensions::Three {
+            scene.container.depth
+        } else {
+            0.0
+        },
+        0.0,
+    ];
     Interaction {
         laws: ContactLaws {
             normal: scene.normal.law(),
@@ -170,7 +135,7 @@ fn interaction(scene: &Sedimentation) -> Interaction {
         attraction: attraction(scene),
         couple: uniform.then(|| Couple::new(&extremes[0].0, &extremes[0].0)),
         period,
-        time_step: limits(scene).time_step,
+        time_step,
     }
 }
 
@@ -209,19 +174,26 @@ fn attraction(scene: &Sedimentation) -> Option<Attraction> {
 /// Slices, where anything depends on them.
 fn porosity(scene: &Sedimentation) -> Option<Porosity> {
     let closed = matches!(scene.fluid, StillFluid::Column(_));
-    let extremes = scene.extremes();
-    let (_, density) = extremes.first()?;
-    let mixed = extremes.iter().any(|(_, other)| other != density) && scene.drag != GrainDrag::None;
     let alone = match scene.drag {
         GrainDrag::None => true,
         GrainDrag::Beetstra | GrainDrag::BeetstraCello => false,
         _ => scene.voidage == Voidage::None,
     };
-    if !(closed || mixed) && alone {
-        return None;
-    }
+    (closed || mixed(scene) || !alone).then(|| slices(scene, 0.0))
+}
+
+/// Whether grains of several densities share the drag on the mixture.
+fn mixed(scene: &Sedimentation) -> bool {
+    let extremes = scene.extremes();
+    let differ = extremes.iter().any(|(_, other)| *other != extremes[0].1);
+    differ && scene.drag != GrainDrag::None
+}
+
+/// Slices from a height [m] up.
+pub fn slices(scene: &Sedimentation, bottom: f64) -> Porosity {
     let viscosity = scene.fluid.medium().viscosity;
-    let relaxation = extremes
+    let relaxation = scene
+        .extremes()
         .iter()
         .map(|(body, _)| body.mass / (6.0 * PI * viscosity * body.radius))
         .fold(f64::INFINITY, f64::min);
@@ -230,12 +202,13 @@ fn porosity(scene: &Sedimentation) -> Option<Porosity> {
         SlicePorosity::Centre => (Measure::Centre, scene.container.width * scene.depth()),
         SlicePorosity::Areas => (Measure::Areas, scene.container.width),
     };
-    Some(Porosity::new(
-        scene.largest_diameter(),
-        area,
-        measure,
+    let height = scene.largest_diameter();
+    let closed = matches!(scene.fluid, StillFluid::Column(_));
+    Porosity::new(
+        Slices::new(bottom, height, area, measure),
+        height,
         closed,
-        mixed,
+        mixed(scene),
         relaxation,
-    ))
+    )
 }

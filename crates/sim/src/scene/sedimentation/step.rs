@@ -16,6 +16,15 @@ const DENSE: f64 = 0.4;
 /// Speed [m/s] taken where nothing sets grains in motion.
 const REST: f64 = 1e-6;
 
+/// What drives grains beside their weight.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Drive {
+    /// Greatest speed of the fluid [m/s].
+    pub speed: f64,
+    /// Force on all grains together [N].
+    pub force: f64,
+}
+
 /// What the contacts of a scene say about its step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limits {
@@ -40,17 +49,22 @@ pub struct Limits {
 /// the box, where that is less), or at the speed that loads a contact as the whole bed loads its lowest
 /// layer, where that is more; attraction adds its work.
 pub fn limits(scene: &Sedimentation) -> Limits {
+    limits_under(scene, &Drive::default())
+}
+
+/// The same where more than their weight drives the grains.
+pub fn limits_under(scene: &Sedimentation, drive: &Drive) -> Limits {
     let grains = scene.extremes();
     let fastest = grains
         .iter()
-        .map(|(grain, density)| scene.greatest_speed(grain, *density))
+        .map(|(grain, density)| drive.speed + scene.greatest_speed(grain, *density))
         .fold(REST, f64::max);
     let mut longest = Longest::default();
     let (mut impact_speed, mut contact_time, mut overlap) = (fastest, f64::INFINITY, 0.0_f64);
     for (place, (one, density)) in grains.iter().enumerate() {
         let partners = grains[place..].iter().map(|(other, _)| other);
         for other in partners.chain([&Body::WALL]) {
-            let pair = Pair::of(scene, one, other, fastest);
+            let pair = Pair::of(scene, one, other, fastest, scene.load() + drive.force);
             impact_speed = impact_speed.max(pair.contact.rate);
             contact_time = contact_time.min(pair.contact_time());
             overlap = overlap.max(pair.contact.overlap / (2.0 * one.radius.min(other.radius)));
@@ -111,7 +125,8 @@ struct Pair<'a> {
 }
 
 impl<'a> Pair<'a> {
-    fn of(scene: &'a Sedimentation, one: &Body, other: &Body, fastest: f64) -> Self {
+    /// At a speed [m/s], under a load on the whole floor [N].
+    fn of(scene: &'a Sedimentation, one: &Body, other: &Body, fastest: f64, load: f64) -> Self {
         let reduced = |a: f64, b: f64| 1.0 / (1.0 / a + 1.0 / b);
         let normal = scene.normal.law();
         let mut pair = Pair {
@@ -129,7 +144,7 @@ impl<'a> Pair<'a> {
                 reduced_radius: reduced(one.radius, other.radius),
             },
         };
-        let energy = pair.pressed(one, other).max(pair.kinetic(fastest)) + pair.attraction();
+        let energy = pair.pressed(one, other, load).max(pair.kinetic(fastest)) + pair.attraction();
         pair.contact.rate = (2.0 * energy / pair.contact.reduced_mass).sqrt();
         pair.contact.overlap = pair.deepest(|overlap| pair.elastic(overlap) - energy);
         pair
@@ -163,7 +178,7 @@ impl<'a> Pair<'a> {
     }
 
     /// Elastic energy [J] of a contact at the bottom of the settled bed.
-    fn pressed(&self, one: &Body, other: &Body) -> f64 {
+    fn pressed(&self, one: &Body, other: &Body, load: f64) -> f64 {
         let larger = 2.0
             * if other.is_wall() {
                 one.radius
@@ -171,7 +186,7 @@ impl<'a> Pair<'a> {
                 one.radius.max(other.radius)
             };
         let floor = self.scene.container.width * self.scene.depth();
-        let load = self.scene.load() * (larger * larger / floor).min(1.0);
+        let load = load * (larger * larger / floor).min(1.0);
         self.elastic(self.deepest(|overlap| self.force(overlap, 0.0) - load))
     }
 
@@ -271,8 +286,10 @@ pub fn overdamped(scene: &Sedimentation) -> bool {
     let grains = scene.extremes();
     grains.iter().enumerate().any(|(place, (one, _))| {
         let partners = grains[place..].iter().map(|(other, _)| other);
-        partners
-            .chain([&Body::WALL])
-            .any(|other| !Pair::of(scene, one, other, REST).contact_time().is_finite())
+        partners.chain([&Body::WALL]).any(|other| {
+            !Pair::of(scene, one, other, REST, scene.load())
+                .contact_time()
+                .is_finite()
+        })
     })
 }

@@ -86,7 +86,11 @@ fn plane_of_grains(stiffness: f64) -> Sedimentation {
             depth: 250e-6,
             height: 17.5e-3,
             sides: Sides::Walls,
-            floor: Floor::Grains { diameter: 300e-6 },
+            floor: Floor::Grains(FloorGrains {
+                diameter: 300e-6,
+                gap: 0.0,
+                layers: 1,
+            }),
         },
         normal: Normal::LinearSpringDashpot {
             stiffness,
@@ -232,7 +236,11 @@ fn gear_schemes_and_tangential_springs_shorten_the_step() {
 #[test]
 fn everything_wrong_is_reported_at_once() {
     let mut scene = box_of_grains();
-    scene.container.floor = Floor::Grains { diameter: 300e-6 };
+    scene.container.floor = Floor::Grains(FloorGrains {
+        diameter: 300e-6,
+        gap: 0.0,
+        layers: 1,
+    });
     scene.porosity = SlicePorosity::Areas;
     scene.central_slice = 0.0;
     scene.threads = 65;

@@ -1,17 +1,12 @@
 //! What a user should think about before running a sedimentation scene.
 
+use super::describe::bond_number;
 use super::model::{Sedimentation, Sides};
 use super::step::Limits;
 use crate::scene::Description;
 
-/// Adds warnings; `fall` is the time [s] from the top of the box to its floor, `bond` cohesion over weight.
-pub fn warnings(
-    scene: &Sedimentation,
-    limits: &Limits,
-    fall: f64,
-    bond: Option<f64>,
-    description: &mut Description,
-) {
+/// Adds warnings; `fall` is the time [s] from the top of the box to its floor.
+pub fn warnings(scene: &Sedimentation, limits: &Limits, fall: f64, description: &mut Description) {
     let mut warn = |holds: bool, words: String| {
         if holds {
             description.warnings.push(words);
@@ -39,9 +34,11 @@ pub fn warnings(
             100.0 * limits.overlap
         ),
     );
-    let bond = bond.unwrap_or_default();
+    let bond = bond_number(scene).unwrap_or_default();
     let hang = match (scene.container.sides, scene.cohesion) {
-        (Sides::Walls, Some(cohesion)) if cohesion.walls => ", and grains may hang on the walls",
+        (Sides::Walls | Sides::PeriodicAlongX, Some(cohesion)) if cohesion.walls => {
+            ", and grains may hang on the walls"
+        }
         _ => "",
     };
     warn(

@@ -3,7 +3,7 @@
 use super::model::{SuspendingFluid, Suspension};
 use super::observe::MOST_CLASSES;
 use crate::scene::check::{List, millimetres, particle_fluid, threads_and_snapshots};
-use crate::scene::sedimentation::{class_path, time_step};
+use crate::scene::sedimentation::{class_path, limits, time_step};
 use crate::scene::{Drag, Scheme, SphFluid};
 
 /// Least porosity that grains are spread evenly at [-].
@@ -24,7 +24,8 @@ pub fn check(scene: &Suspension, list: &mut List) {
         sound &= scheme(fluid, list);
     }
     if sound {
-        time_step(&scene.as_sedimentation(), list);
+        let bed = scene.as_sedimentation();
+        time_step(&bed, &limits(&bed), list);
     }
 }
 

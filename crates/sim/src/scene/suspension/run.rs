@@ -5,7 +5,8 @@ use super::model::{SuspendingFluid, Suspension};
 use super::watch::Watch;
 use crate::bed::Bed;
 use crate::outcome::{Control, Counters, Failure, FailureKind, Outcome, Scalar};
-use crate::scene::divergence::diverged;
+use crate::scene::divergence::{Signs, diverged};
+use crate::scene::sedimentation::mover::failed;
 
 /// Rows of the time series, at least and at most in a run.
 const ROWS: [f64; 2] = [100.0, 400.0];
@@ -105,15 +106,12 @@ impl<S: Settling> Watch<'_, S> {
     fn diverged(&self) -> Option<String> {
         let last = self.rows.last()?;
         // Nothing can move faster than the fall through the whole column makes it.
-        let most = 2.0 * self.load * self.scene.column.height;
-        diverged(self.settling.bed(), last.deepest, most, last.time)
+        let signs = Signs {
+            time: last.time,
+            most: self.load * self.scene.column.height,
+            source: "the work of gravity",
+            deepest: last.deepest,
+        };
+        diverged(self.settling.bed(), &signs)
     }
-}
-
-fn failed(kind: FailureKind, reason: String, partial: Outcome) -> Box<Failure> {
-    Box::new(Failure {
-        kind,
-        reason,
-        partial,
-    })
 }

@@ -41,8 +41,12 @@ impl<'a, S: Settling> Watch<'a, S> {
         self.rows.push(measures);
         self.momentum_gap = self.momentum_gap.max(settling.momentum_gap());
         let contacts = settling.bed().contact_numbers();
-        self.snapshots
-            .keep(settling.bed(), &contacts, time, settling.time_step());
+        self.snapshots.keep(
+            settling.bed(),
+            &contacts,
+            [time, settling.time_step()],
+            |number| number,
+        );
         self.settling.forget_deepest();
     }
 
@@ -51,7 +55,10 @@ impl<'a, S: Settling> Watch<'a, S> {
         let bed = self.settling.bed();
         let mut tables = vec![self.time_series(&deposit), self.porosity_map()];
         let time = self.rows.last().map_or(0.0, |row| row.time);
-        tables.extend(self.snapshots.table(bed, &bed.contact_numbers(), time));
+        tables.extend(
+            self.snapshots
+                .table(bed, &bed.contact_numbers(), time, |number| number),
+        );
         Outcome {
             scalars: self.scalars(&deposit),
             tables,

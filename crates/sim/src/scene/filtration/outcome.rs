@@ -1,0 +1,293 @@
+//! What a run gives back.
+
+use super::cake::layers;
+use super::watch::{Row, Watch};
+use crate::outcome::{Column, Counters, Outcome, Scalar, Table};
+use crate::scene::sedimentation::growth::Growth;
+use crate::scene::sedimentation::observe::{porosity_interior, profile, whole_area_porosity};
+use crate::scene::{Dimensions, Floor, Sides};
+
+/// Share of the run, at its end, over which a balance of erosion and deposition shows [-].
+const END: f64 = 0.1;
+/// Growth over that share, over the thickness, below which the cake counts as stopped [-].
+const STOPPED: f64 = 0.02;
+/// Share of the grains fed that must be in flight then [-].
+const IN_FLIGHT: f64 = 0.01;
+
+/// `snapshots` makes their table from the contacts of each place.
+pub fn outcome(watch: &Watch, snapshots: impl Fn(&[u16]) -> Option<Table>) -> Outcome {
+    let bed = &watch.bed;
+    let mut tables = vec![
+        series(watch),
+        porosity_profile(watch),
+        permeability_profile(watch),
+    ];
+    let settled = watch.settled.as_ref();
+    tables.extend(snapshots(
+        settled.map_or(&[][..], |settled| settled.contacts.as_slice()),
+    ));
+    let work = &bed.work;
+    Outcome {
+        scalars: scalars(watch),
+        tables,
+        counters: Counters {
+            steps: work.steps,
+            grain_steps: work.steps,
+            grain_pairs: work.pairs,
+            searched_pairs: work.looked_at,
+            list_rebuilds: work.lists,
+            porosity_clips: bed.porosity.as_ref().map_or(0, |porosity| porosity.clips()),
+            ..Counters::default()
+        },
+    }
+}
+
+fn scalars(watch: &Watch) -> Vec<Scalar> {
+    let mut scalars = Vec::new();
+    let mut add = |name, unit, value| scalars.push(Scalar { name, unit, value });
+    of_shape(watch, &mut add);
+    of_medium(watch, &mut add);
+    of_flow_across(watch, &mut add);
+    of_cake(watch, &mut add);
+    of_filtrate(watch, &mut add);
+    of_grains(watch, &mut add);
+    of_growth(watch, &mut add);
+    of_run(watch, &mut add);
+    scalars
+}
+
+type Add<'a> = &'a mut dyn FnMut(&'static str, &'static str, f64);
+
+fn last(watch: &Watch) -> Row {
+    watch.rows.last().copied().unwrap_or_default()
+}
+
+fn of_shape(watch: &Watch, add: Add) {
+    let (scene, row) = (&watch.scene.bed, last(watch));
+    if scene.dimensions == Dimensions::Two {
+        add("area_porosity", "1", row.measures.area_porosity);
+        let whole = watch.settled.as_ref().map_or(f64::NAN, |settled| {
+            whole_area_porosity(scene, &watch.bed, settled, row.measures.thickness)
+        });
+        add("area_porosity_whole", "1", whole);
+    } else if scene.container.sides == Sides::Walls {
+        let known = row.cake.deposited > 0;
+        let interior = porosity_interior(scene, &watch.bed, row.measures.slice);
+        add("porosity_interior", "1", if known { interior } else { f64::NAN });
+    }
+}
+
+fn of_medium(watch: &Watch, add: Add) {
+    let (scene, grains) = (&watch.scene.bed, &watch.bed.grains);
+    if let Floor::Grains(floor) = scene.container.floor {
+        add("medium_grain_diameter", "m", floor.diameter);
+        add("medium_grains", "1", (grains.len() - grains.moving) as f64);
+        add("medium_pitch", "m", floor.pitch(scene.container.width));
+    }
+}
+
+fn of_flow_across(watch: &Watch, add: Add) {
+    let Some(stream) = watch.scene.stream() else {
+        return;
+    };
+    let row = last(watch);
+    add(
+        "wall_shear",
+        "Pa",
+        watch.scene.viscosity() * stream.shear(stream.bottom),
+    );
+    add("surface_shear", "Pa", surface_shear(watch, &row));
+    add("erosion_thickness", "m", erosion_thickness(watch));
+    add("grain_flux", "m/s", row.cake.grain_flux);
+}
+
+/// Of the stream at the height of the surface [Pa]: the stream itself does not know the cake.
+fn surface_shear(watch: &Watch, row: &Row) -> f64 {
+    watch.scene.stream().map_or(f64::NAN, |stream| {
+        watch.scene.viscosity() * stream.shear(stream.bottom + row.cake.thickness_mean)
+    })
+}
+
+/// Mean thickness [m] over the end of the run where it has stopped to grow with grains in flight.
+fn erosion_thickness(watch: &Watch) -> f64 {
+    let end = last(watch);
+    let late: Vec<&Row> = watch
+        .rows
+        .iter()
+        .filter(|row| row.time >= (1.0 - END) * end.time)
+        .collect();
+    let mean = |rows: &[&Row]| {
+        rows.iter().map(|row| row.cake.thickness_mean).sum::<f64>() / rows.len().max(1) as f64
+    };
+    let (first, second) = late.split_at(late.len() / 2);
+    let whole = mean(&late);
+    let stopped = (mean(second) - mean(first)).abs() <= 0.5 * STOPPED * whole;
+    let flying = end.cake.in_flight as f64 >= IN_FLIGHT * end.fed as f64;
+    if stopped && flying && whole > 0.0 {
+        whole
+    } else {
+        f64::NAN
+    }
+}
+
+fn of_cake(watch: &Watch, add: Add) {
+    let Row { measures, cake, .. } = last(watch);
+    add("thickness", "m", measures.thickness);
+    add("thickness_mean", "m", cake.thickness_mean);
+    add("porosity", "1", measures.porosity);
+    add("porosity_half", "1", measures.porosity_half);
+    add("porosity_centre", "1", measures.porosity_centre);
+    add("porosity_whole", "1", cake.porosity_whole);
+    add("solids_fraction", "1", 1.0 - measures.porosity);
+    add("permeability", "m²", cake.permeability);
+    add("coordination", "1", measures.coordination);
+}
+
+fn of_filtrate(watch: &Watch, add: Add) {
+    let row = last(watch);
+    add("flux", "m/s", row.flux);
+    add("initial_flux", "m/s", watch.operation.flux);
+    add("pressure_drop", "Pa", row.pressure_drop);
+    add("medium_resistance", "1/m", watch.operation.medium_resistance);
+    add("cake_resistance", "1/m", row.cake.resistance);
+    let specific = row.cake.specific_resistance(watch.scene.area());
+    add("specific_resistance", "m/kg", specific);
+    add("filtrate_volume", "m", row.filtrate);
+}
+
+fn of_grains(watch: &Watch, add: Add) {
+    let row = last(watch);
+    add("deposited", "1", row.cake.deposited as f64);
+    add("deposited_volume", "m³", row.cake.volume);
+    add("deposited_mass", "kg", row.cake.mass);
+    add("fed", "1", row.fed as f64);
+    add("waiting", "1", row.waiting as f64);
+    add("in_flight", "1", row.cake.in_flight as f64);
+    add("passed", "1", row.passed as f64);
+    let errors = watch.rows.iter().map(|row| row.cake.volume_error);
+    add("volume_error", "1", errors.fold(0.0, f64::max));
+    add("settled_share", "1", row.measures.settled_share);
+}
+
+fn of_growth(watch: &Watch, add: Add) {
+    let begun = watch.rows.iter().find(|row| row.cake.deposited > 0);
+    add("first_deposit_time", "s", begun.map_or(f64::NAN, |row| row.time));
+    let total = watch.scene.bed.grains() as usize;
+    let under_way = |row: &Row| row.cake.in_flight > 0 || row.fed < total;
+    let unsettled = watch.rows.iter().rposition(under_way);
+    let settled = watch.rows.get(unsettled.map_or(0, |row| row + 1));
+    add("settling_time", "s", settled.map_or(f64::NAN, |row| row.time));
+    let times: Vec<f64> = watch.rows.iter().map(|row| row.time).collect();
+    let thicknesses: Vec<f64> = watch.rows.iter().map(|row| row.measures.thickness).collect();
+    let growth = Growth::of(&times, &thicknesses);
+    add("plateau_time", "s", growth.plateau_time);
+    add("growth_linearity", "1", growth.linearity);
+    add("final_growth_rate", "m/s", growth.final_rate);
+}
+
+fn of_run(watch: &Watch, add: Add) {
+    let deepest = watch.rows.iter().map(|row| row.deepest);
+    add("largest_overlap", "1", deepest.fold(0.0, f64::max));
+    add("momentum_error", "1", watch.bed.momentum_error());
+    add("time_step", "s", watch.limits.time_step);
+    add("contact_time", "s", watch.limits.contact_time);
+    let work = &watch.bed.work;
+    add("pairs_per_search", "1", work.looked_at as f64 / work.lists as f64);
+}
+
+#[rustfmt::skip]
+fn series(watch: &Watch) -> Table {
+    let column = |name, unit, value: &dyn Fn(&Row) -> f64| Column {
+        name,
+        unit,
+        values: watch.rows.iter().map(value).collect(),
+    };
+    let area = watch.scene.area();
+    let mut columns = vec![
+        column("time", "s", &|row| row.time),
+        column("thickness", "m", &|row| row.measures.thickness),
+        column("thickness_mean", "m", &|row| row.cake.thickness_mean),
+        column("porosity", "1", &|row| row.measures.porosity),
+        column("porosity_whole", "1", &|row| row.cake.porosity_whole),
+        column("permeability", "m²", &|row| row.cake.permeability),
+        column("flux", "m/s", &|row| row.flux),
+        column("pressure_drop", "Pa", &|row| row.pressure_drop),
+        column("cake_resistance", "1/m", &|row| row.cake.resistance),
+        column("specific_resistance", "m/kg", &|row| row.cake.specific_resistance(area)),
+        column("filtrate_volume", "m", &|row| row.filtrate),
+        column("time_over_volume", "s/m", &|row| time_over_volume(watch, row)),
+        column("deposited", "1", &|row| row.cake.deposited as f64),
+        column("deposited_volume", "m³", &|row| row.cake.volume),
+        column("deposited_mass", "kg", &|row| row.cake.mass),
+        column("fed", "1", &|row| row.fed as f64),
+        column("waiting", "1", &|row| row.waiting as f64),
+        column("in_flight", "1", &|row| row.cake.in_flight as f64),
+        column("passed", "1", &|row| row.passed as f64),
+        column("volume_error", "1", &|row| row.cake.volume_error),
+        column("settled_share", "1", &|row| row.measures.settled_share),
+        column("centre_of_mass", "m", &|row| row.measures.centre_of_mass),
+        column("top_height", "m", &|row| row.measures.top_height),
+        column("mean_speed", "m/s", &|row| row.measures.mean_speed),
+        column("kinetic_energy", "J", &|row| row.measures.kinetic_energy),
+        column("coordination", "1", &|row| row.measures.coordination),
+        column("largest_overlap", "1", &|row| row.deepest),
+    ];
+    if watch.scene.bed.dimensions == Dimensions::Two {
+        columns.push(column("area_porosity", "1", &|row| row.measures.area_porosity));
+    }
+    if watch.scene.crossflow.is_some() {
+        columns.push(column("surface_shear", "Pa", &|row| surface_shear(watch, row)));
+        columns.push(column("grain_flux", "m/s", &|row| row.cake.grain_flux));
+    }
+    Table { name: "time_series", columns }
+}
+
+/// t/V [s/m], at the start what it tends to.
+fn time_over_volume(watch: &Watch, row: &Row) -> f64 {
+    if row.filtrate > 0.0 {
+        row.time / row.filtrate
+    } else {
+        1.0 / watch.operation.flux
+    }
+}
+
+fn porosity_profile(watch: &Watch) -> Table {
+    let [heights, porosities] = profile(&watch.scene.bed, &watch.bed);
+    Table {
+        name: "porosity_profile",
+        columns: vec![
+            Column {
+                name: "height",
+                unit: "m",
+                values: heights,
+            },
+            Column {
+                name: "porosity",
+                unit: "1",
+                values: porosities,
+            },
+        ],
+    }
+}
+
+fn permeability_profile(watch: &Watch) -> Table {
+    let row = last(watch);
+    let layers = if row.cake.deposited > 0 {
+        layers(watch.scene, &watch.bed, row.measures.ends)
+    } else {
+        Vec::new()
+    };
+    let of = |name, unit, value: fn(&super::cake::Layer) -> f64| Column {
+        name,
+        unit,
+        values: layers.iter().map(value).collect(),
+    };
+    Table {
+        name: "permeability_profile",
+        columns: vec![
+            of("height", "m", |layer| 0.5 * (layer.ends[0] + layer.ends[1])),
+            of("permeability", "m²", |layer| layer.permeability),
+            of("porosity", "1", |layer| layer.porosity),
+        ],
+    }
+}
