@@ -1,4 +1,4 @@
-//! What a solution reads from the settings of a scene.
+//! What a solution reads from the settings of a scene and from what its run has measured.
 
 use serde_json::Value;
 
@@ -6,18 +6,23 @@ use super::drag_law::DragLaw;
 use super::grain::Grain;
 use super::{Facts, ReferenceError};
 
-/// A scene's settings, opened.
+/// A scene's settings, opened, and the scalars of its run.
 pub struct Case<'a> {
     /// `single_sphere`, `constant_porosity_block`, `rehearsal`.
     pub kind: &'a str,
     body: &'a Value,
+    scalars: &'a dyn Fn(&str) -> Option<f64>,
 }
 
 impl<'a> Case<'a> {
     pub fn of(facts: &Facts<'a>) -> Result<Self, ReferenceError> {
         let (kind, body) = single(facts.settings)
             .ok_or_else(|| ReferenceError("the run's settings do not name one scene".to_string()))?;
-        Ok(Case { kind, body })
+        Ok(Case {
+            kind,
+            body,
+            scalars: facts.scalars,
+        })
     }
 
     /// Refuses a scene the solution `name` does not hold for.
@@ -29,6 +34,15 @@ impl<'a> Case<'a> {
             "`{name}` holds for the scene `{kind}`, not for `{}`",
             self.kind
         )))
+    }
+
+    /// A scalar that the run has measured; it must be among those that the study keeps.
+    pub fn measured(&self, name: &str) -> Result<f64, ReferenceError> {
+        (self.scalars)(name).ok_or_else(|| {
+            ReferenceError(format!(
+                "the run has no scalar `{name}`, which the reference needs: add it to `observe` and run the study again"
+            ))
+        })
     }
 
     /// A number at a dotted path.
