@@ -207,6 +207,8 @@ mod tests {
             "schiller_naumann",
             "di_felice",
             "coulson_richardson",
+            "beetstra",
+            "beetstra_cello",
         ] {
             let settings = sphere(law);
             let alone = value("terminal_velocity", &settings).unwrap();
