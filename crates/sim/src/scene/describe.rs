@@ -17,6 +17,7 @@ pub fn describe(scene: &Scene) -> Description {
         Scene::ConstantPorosityBlock(block) => Settling::of_block(block),
         Scene::BinaryCollision(collision) => return super::collision::describe(collision),
         Scene::Sedimentation(scene) => return super::sedimentation::describe(scene),
+        Scene::Suspension(scene) => return super::suspension::describe(scene),
     };
     let (dt, steps) = settling.steps();
     let grains = settling.positions().len() as u64;
