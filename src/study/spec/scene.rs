@@ -9,6 +9,7 @@ use super::quantity::{
     TimeStepSpec, Viscosity,
 };
 use super::sedimentation::SedimentationSpec;
+use super::suspension::SuspensionSpec;
 
 /// A scene: its name with its fields.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
@@ -22,6 +23,8 @@ pub enum SceneSpec {
     BinaryCollision(CollisionSpec),
     /// Many grains settle through a fluid onto the floor of a box and form a bed.
     Sedimentation(SedimentationSpec),
+    /// A homogeneous suspension of grains settles in a column of fluid onto its floor.
+    Suspension(SuspensionSpec),
     /// No physics: returns a known series, to try out plans, stores, verdicts and reports.
     Rehearsal(RehearsalSpec),
 }
@@ -99,6 +102,8 @@ pub enum DragSpec {
     SchillerNaumann,
     DiFelice,
     CoulsonRichardson,
+    Beetstra,
+    BeetstraCello,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
@@ -188,7 +193,7 @@ impl Default for SchemeSpec {
             artificial_viscosity: CoefficientSpec::None,
             viscosity_constant: CoefficientSpec::None,
             porosity: PorosityPathSpec::OnePass,
-            sharpening: SharpeningSpec::Conservative,
+            sharpening: SharpeningSpec::Automatic,
             start: StartSpec::Exact,
             stress_density: PhaseSpec::Superficial,
             slip: SlipSpec::Superficial,
@@ -225,6 +230,8 @@ pub enum PorosityPathSpec {
 #[derive(Clone, Copy, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SharpeningSpec {
+    /// `conservative` for blocks and single grains, `none` among random grains, whose scatter it amplifies.
+    Automatic,
     None,
     Conservative,
 }

@@ -3,6 +3,7 @@
 mod collision;
 mod sedimentation;
 mod snapshot;
+mod suspension;
 
 pub use snapshot::Snapshots;
 
@@ -17,8 +18,10 @@ use super::model::{Rehearsal, RehearsalEnding, Work};
 use super::spec::quantity::{CoefficientSpec, SoundSpeedSpec, StiffnessSpec, TimeStepSpec};
 use super::spec::scene::*;
 use super::spec::sedimentation::{ArrangementSpec, SedimentationSpec};
+use super::spec::suspension::{SuspendingFluidSpec, SuspensionSpec};
 
-/// Fills in what follows from other fields and files: the lattice of a block, the grains of a snapshot.
+/// Fills in what follows from other fields and files: the lattice of a block, the grains of a snapshot, the
+/// sharpening that suits the scene.
 pub fn completed(mut spec: SceneSpec, snapshots: &Snapshots) -> SceneSpec {
     if let SceneSpec::Sedimentation(SedimentationSpec {
         arrangement: ArrangementSpec::Snapshot(snapshot),
@@ -36,7 +39,30 @@ pub fn completed(mut spec: SceneSpec, snapshots: &Snapshots) -> SceneSpec {
             block.layers.get_or_insert(count(thickness / pitch));
         }
     }
+    sharpen(&mut spec);
     spec
+}
+
+/// Settles an automatic sharpening.
+fn sharpen(spec: &mut SceneSpec) {
+    let (fluid, suits) = match spec {
+        SceneSpec::SingleSphere(SingleSphereSpec {
+            fluid: FluidSpec::Sph(sph),
+            ..
+        })
+        | SceneSpec::ConstantPorosityBlock(BlockSpec {
+            fluid: FluidSpec::Sph(sph),
+            ..
+        }) => (sph, SharpeningSpec::Conservative),
+        SceneSpec::Suspension(SuspensionSpec {
+            fluid: SuspendingFluidSpec::Sph(sph),
+            ..
+        }) => (sph, SharpeningSpec::None),
+        _ => return,
+    };
+    if let SharpeningSpec::Automatic = fluid.scheme.sharpening {
+        fluid.scheme.sharpening = suits;
+    }
 }
 
 /// Distance of neighbours in a cubic lattice of the given porosity [m].
@@ -98,6 +124,7 @@ pub fn work(spec: &SceneSpec) -> Work {
         SceneSpec::Sedimentation(spec) => {
             Work::Simulation(Scene::Sedimentation(sedimentation::sedimentation(spec)))
         }
+        SceneSpec::Suspension(spec) => Work::Simulation(Scene::Suspension(suspension::suspension(spec))),
         SceneSpec::Rehearsal(rehearsal) => Work::Rehearsal(rehearsed(rehearsal)),
     }
 }
@@ -112,6 +139,14 @@ pub fn refusals(spec: &SceneSpec, work: &Work) -> Vec<Fault> {
             }
             let found = faults(work).into_iter();
             found.map(|fault| sedimentation::placed(spec, fault)).collect()
+        }
+        SceneSpec::Suspension(spec) => {
+            let contradictions = suspension::contradictions(spec);
+            if !contradictions.is_empty() {
+                return contradictions;
+            }
+            let found = faults(work).into_iter();
+            found.map(|fault| suspension::placed(spec, fault)).collect()
         }
         _ => faults(work),
     }
@@ -157,6 +192,8 @@ fn drag(spec: DragSpec) -> Drag {
         DragSpec::SchillerNaumann => Drag::SchillerNaumann,
         DragSpec::DiFelice => Drag::DiFelice,
         DragSpec::CoulsonRichardson => Drag::CoulsonRichardson,
+        DragSpec::Beetstra => Drag::Beetstra,
+        DragSpec::BeetstraCello => Drag::BeetstraCello,
     }
 }
 
@@ -164,14 +201,18 @@ fn fluid(spec: &FluidSpec) -> Fluid {
     match spec {
         FluidSpec::Still(still) => Fluid::Still(medium(still)),
         FluidSpec::Column(column) => Fluid::Column(medium(column)),
-        FluidSpec::Sph(sph) => Fluid::Sph(SphFluid {
-            medium: Medium {
-                density: sph.density.0,
-                viscosity: sph.viscosity.0,
-            },
-            spacing_over_diameter: sph.spacing_over_diameter.0,
-            scheme: scheme(&sph.scheme),
-        }),
+        FluidSpec::Sph(fluid) => Fluid::Sph(sph(fluid)),
+    }
+}
+
+fn sph(spec: &SphSpec) -> SphFluid {
+    SphFluid {
+        medium: Medium {
+            density: spec.density.0,
+            viscosity: spec.viscosity.0,
+        },
+        spacing_over_diameter: spec.spacing_over_diameter.0,
+        scheme: scheme(&spec.scheme),
     }
 }
 
@@ -205,7 +246,7 @@ fn scheme(spec: &SchemeSpec) -> Scheme {
         },
         sharpening: match spec.sharpening {
             SharpeningSpec::None => SharpeningChoice::None,
-            SharpeningSpec::Conservative => SharpeningChoice::Conservative,
+            SharpeningSpec::Automatic | SharpeningSpec::Conservative => SharpeningChoice::Conservative,
         },
         start: match spec.start {
             StartSpec::Exact => Start::Exact,
