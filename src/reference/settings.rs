@@ -60,10 +60,34 @@ impl<'a> Case<'a> {
 
     /// Grain, medium and gravity, whatever the fluid model.
     pub fn grain(&self) -> Result<Grain, ReferenceError> {
+        let classes = self.classes()?;
+        match classes.as_slice() {
+            [(grain, _)] => Ok(*grain),
+            _ => Err(ReferenceError(format!(
+                "the reference holds for equal grains, the scene has {} classes of them",
+                classes.len()
+            ))),
+        }
+    }
+
+    /// Every class of grains with its share of their number; the share is 1 for `grains` alone.
+    pub fn classes(&self) -> Result<Vec<(Grain, f64)>, ReferenceError> {
+        let count = self.at("classes").and_then(Value::as_array).map(Vec::len);
+        let Some(count) = count else {
+            return Ok(vec![(self.grain_at("grains")?, 1.0)]);
+        };
+        let class = |index: usize| {
+            let path = format!("classes.{index}");
+            Ok((self.grain_at(&path)?, self.number(&format!("{path}.share"))?))
+        };
+        (0..count).map(class).collect()
+    }
+
+    fn grain_at(&self, path: &str) -> Result<Grain, ReferenceError> {
         let model = self.word("fluid").unwrap_or("sph");
         Ok(Grain {
-            diameter: self.number("grains.diameter")?,
-            density: self.number("grains.density")?,
+            diameter: self.number(&format!("{path}.diameter"))?,
+            density: self.number(&format!("{path}.density"))?,
             fluid_density: self.number(&format!("fluid.{model}.density"))?,
             viscosity: self.number(&format!("fluid.{model}.viscosity"))?,
             gravity: self.number("gravity")?,
@@ -87,7 +111,10 @@ impl<'a> Case<'a> {
     }
 
     fn at(&self, path: &str) -> Option<&'a Value> {
-        path.split('.').try_fold(self.body, |value, key| value.get(key))
+        path.split('.').try_fold(self.body, |value, key| {
+            let place = || value.get(key.parse::<usize>().ok()?);
+            value.get(key).or_else(place)
+        })
     }
 }
 

@@ -155,6 +155,7 @@ impl Work {
         let mut work = self.clone();
         match &mut work {
             Work::Simulation(Scene::Sedimentation(scene)) => scene.seed = seed,
+            Work::Simulation(Scene::Suspension(scene)) => scene.seed = seed,
             Work::Simulation(Scene::Filtration(scene)) => scene.bed.seed = seed,
             Work::Simulation(_) | Work::Rehearsal(_) => {}
         }

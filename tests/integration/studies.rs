@@ -149,6 +149,7 @@ fn the_schema_is_closed_and_its_references_resolve() {
             "constant_porosity_block",
             "binary_collision",
             "sedimentation",
+            "suspension",
             "filtration",
             "rehearsal"
         ]

@@ -10,6 +10,7 @@ use super::quantity::{
     TimeStepSpec, Viscosity,
 };
 use super::sedimentation::SedimentationSpec;
+use super::suspension::SuspensionSpec;
 
 /// A scene: its name with its fields.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
@@ -23,6 +24,8 @@ pub enum SceneSpec {
     BinaryCollision(CollisionSpec),
     /// Many grains settle through a fluid onto the floor of a box and form a bed.
     Sedimentation(SedimentationSpec),
+    /// A homogeneous suspension of grains settles in a column of fluid onto its floor.
+    Suspension(SuspensionSpec),
     /// A suspension is driven through a filter medium and leaves a cake on it.
     Filtration(FiltrationSpec),
     /// No physics: returns a known series, to try out plans, stores, verdicts and reports.
@@ -102,6 +105,8 @@ pub enum DragSpec {
     SchillerNaumann,
     DiFelice,
     CoulsonRichardson,
+    Beetstra,
+    BeetstraCello,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
@@ -191,7 +196,7 @@ impl Default for SchemeSpec {
             artificial_viscosity: CoefficientSpec::None,
             viscosity_constant: CoefficientSpec::None,
             porosity: PorosityPathSpec::OnePass,
-            sharpening: SharpeningSpec::Conservative,
+            sharpening: SharpeningSpec::Automatic,
             start: StartSpec::Exact,
             stress_density: PhaseSpec::Superficial,
             slip: SlipSpec::Superficial,
@@ -228,6 +233,8 @@ pub enum PorosityPathSpec {
 #[derive(Clone, Copy, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SharpeningSpec {
+    /// `conservative` for blocks and single grains, `none` among random grains, whose scatter it amplifies.
+    Automatic,
     None,
     Conservative,
 }

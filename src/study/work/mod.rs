@@ -4,6 +4,7 @@ mod collision;
 mod filtration;
 mod sedimentation;
 mod snapshot;
+mod suspension;
 
 pub use snapshot::Snapshots;
 
@@ -18,8 +19,10 @@ use super::model::{Rehearsal, RehearsalEnding, Work};
 use super::spec::quantity::{CoefficientSpec, SoundSpeedSpec, StiffnessSpec, TimeStepSpec};
 use super::spec::scene::*;
 use super::spec::sedimentation::{ArrangementSpec, BedSpec};
+use super::spec::suspension::{SuspendingFluidSpec, SuspensionSpec};
 
-/// Fills in what follows from other fields and files: the lattice of a block, the grains of a snapshot.
+/// Fills in what follows from other fields and files: the lattice of a block, the grains of a snapshot, the
+/// sharpening that suits the scene.
 pub fn completed(mut spec: SceneSpec, snapshots: &Snapshots) -> SceneSpec {
     let arrangement = bed(&mut spec).map(|bed| &mut bed.arrangement);
     if let Some(ArrangementSpec::Snapshot(snapshot)) = arrangement {
@@ -34,6 +37,7 @@ pub fn completed(mut spec: SceneSpec, snapshots: &Snapshots) -> SceneSpec {
             block.layers.get_or_insert(count(thickness / pitch));
         }
     }
+    sharpen(&mut spec);
     spec
 }
 
@@ -43,6 +47,28 @@ fn bed(spec: &mut SceneSpec) -> Option<&mut BedSpec> {
         SceneSpec::Sedimentation(spec) => Some(&mut spec.bed),
         SceneSpec::Filtration(spec) => Some(&mut spec.bed),
         _ => None,
+    }
+}
+
+/// Settles an automatic sharpening.
+fn sharpen(spec: &mut SceneSpec) {
+    let (fluid, suits) = match spec {
+        SceneSpec::SingleSphere(SingleSphereSpec {
+            fluid: FluidSpec::Sph(sph),
+            ..
+        })
+        | SceneSpec::ConstantPorosityBlock(BlockSpec {
+            fluid: FluidSpec::Sph(sph),
+            ..
+        }) => (sph, SharpeningSpec::Conservative),
+        SceneSpec::Suspension(SuspensionSpec {
+            fluid: SuspendingFluidSpec::Sph(sph),
+            ..
+        }) => (sph, SharpeningSpec::None),
+        _ => return,
+    };
+    if let SharpeningSpec::Automatic = fluid.scheme.sharpening {
+        fluid.scheme.sharpening = suits;
     }
 }
 
@@ -105,6 +131,7 @@ pub fn work(spec: &SceneSpec) -> Work {
         SceneSpec::Sedimentation(spec) => {
             Work::Simulation(Scene::Sedimentation(sedimentation::sedimentation(spec)))
         }
+        SceneSpec::Suspension(spec) => Work::Simulation(Scene::Suspension(suspension::suspension(spec))),
         SceneSpec::Filtration(spec) => Work::Simulation(Scene::Filtration(filtration::filtration(spec))),
         SceneSpec::Rehearsal(rehearsal) => Work::Rehearsal(rehearsed(rehearsal)),
     }
@@ -112,22 +139,30 @@ pub fn work(spec: &SceneSpec) -> Work {
 
 /// Everything that keeps a scene from running, as it is written. Expects a [`completed`] one.
 pub fn refusals(spec: &SceneSpec, work: &Work) -> Vec<Fault> {
-    let (bed, scene) = match spec {
-        SceneSpec::Sedimentation(spec) => (&spec.bed, "sedimentation"),
-        SceneSpec::Filtration(spec) => (&spec.bed, "filtration"),
-        _ => return faults(work),
+    let contradictions = match spec {
+        SceneSpec::Sedimentation(spec) => sedimentation::contradictions(&spec.bed, "sedimentation"),
+        SceneSpec::Filtration(spec) => sedimentation::contradictions(&spec.bed, "filtration"),
+        SceneSpec::Suspension(spec) => suspension::contradictions(spec),
+        _ => Vec::new(),
     };
-    let contradictions = sedimentation::contradictions(bed, scene);
     if !contradictions.is_empty() {
         return contradictions;
     }
-    let placed = |mut fault: Fault| {
-        if let SceneSpec::Filtration(spec) = spec {
+    let found = faults(work).into_iter();
+    found.map(|fault| placed(spec, fault)).collect()
+}
+
+/// A fault of a scene where its study writes it.
+fn placed(spec: &SceneSpec, mut fault: Fault) -> Fault {
+    match spec {
+        SceneSpec::Sedimentation(spec) => sedimentation::placed(&spec.bed, fault),
+        SceneSpec::Filtration(spec) => {
             fault.path = filtration::path(spec, &fault.path);
+            sedimentation::placed(&spec.bed, fault)
         }
-        sedimentation::placed(bed, fault)
-    };
-    faults(work).into_iter().map(placed).collect()
+        SceneSpec::Suspension(spec) => suspension::placed(spec, fault),
+        _ => fault,
+    }
 }
 
 fn rehearsed(spec: &RehearsalSpec) -> Rehearsal {
@@ -170,6 +205,8 @@ fn drag(spec: DragSpec) -> Drag {
         DragSpec::SchillerNaumann => Drag::SchillerNaumann,
         DragSpec::DiFelice => Drag::DiFelice,
         DragSpec::CoulsonRichardson => Drag::CoulsonRichardson,
+        DragSpec::Beetstra => Drag::Beetstra,
+        DragSpec::BeetstraCello => Drag::BeetstraCello,
     }
 }
 
@@ -177,14 +214,18 @@ fn fluid(spec: &FluidSpec) -> Fluid {
     match spec {
         FluidSpec::Still(still) => Fluid::Still(medium(still)),
         FluidSpec::Column(column) => Fluid::Column(medium(column)),
-        FluidSpec::Sph(sph) => Fluid::Sph(SphFluid {
-            medium: Medium {
-                density: sph.density.0,
-                viscosity: sph.viscosity.0,
-            },
-            spacing_over_diameter: sph.spacing_over_diameter.0,
-            scheme: scheme(&sph.scheme),
-        }),
+        FluidSpec::Sph(fluid) => Fluid::Sph(sph(fluid)),
+    }
+}
+
+fn sph(spec: &SphSpec) -> SphFluid {
+    SphFluid {
+        medium: Medium {
+            density: spec.density.0,
+            viscosity: spec.viscosity.0,
+        },
+        spacing_over_diameter: spec.spacing_over_diameter.0,
+        scheme: scheme(&spec.scheme),
     }
 }
 
@@ -218,7 +259,7 @@ fn scheme(spec: &SchemeSpec) -> Scheme {
         },
         sharpening: match spec.sharpening {
             SharpeningSpec::None => SharpeningChoice::None,
-            SharpeningSpec::Conservative => SharpeningChoice::Conservative,
+            SharpeningSpec::Automatic | SharpeningSpec::Conservative => SharpeningChoice::Conservative,
         },
         start: match spec.start {
             StartSpec::Exact => Start::Exact,
