@@ -21,7 +21,9 @@ fn particles_per_side(point: &Point) -> f64 {
     let (fluid, column, grains) = match scene {
         Scene::SingleSphere(sphere) => (&sphere.fluid, sphere.column, sphere.grains),
         Scene::ConstantPorosityBlock(block) => (&block.fluid, block.column, block.grains),
-        Scene::BinaryCollision(_) | Scene::Sedimentation(_) => panic!("a scene with a fluid"),
+        Scene::BinaryCollision(_) | Scene::Sedimentation(_) | Scene::Suspension(_) => {
+            panic!("a scene with a fluid")
+        }
     };
     let Fluid::Sph(fluid) = fluid else {
         panic!("a particle fluid")

@@ -99,6 +99,8 @@ pub enum DragSpec {
     SchillerNaumann,
     DiFelice,
     CoulsonRichardson,
+    Beetstra,
+    BeetstraCello,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]

@@ -157,6 +157,8 @@ fn drag(spec: DragSpec) -> Drag {
         DragSpec::SchillerNaumann => Drag::SchillerNaumann,
         DragSpec::DiFelice => Drag::DiFelice,
         DragSpec::CoulsonRichardson => Drag::CoulsonRichardson,
+        DragSpec::Beetstra => Drag::Beetstra,
+        DragSpec::BeetstraCello => Drag::BeetstraCello,
     }
 }
 

@@ -1,8 +1,9 @@
-//! Where grains are before anything moves: at random, on a lattice, or densely packed.
+//! Where grains are before anything moves: at random, evenly at random, on a lattice, or densely packed.
 //!
 //! Pure geometry. An arrangement follows from the box, the radii and the seed, bit for bit, whatever
 //! the number of threads. No two grains overlap, and no grain reaches through a wall.
 
+mod even;
 mod fault;
 mod insertion;
 mod lattice;
@@ -15,6 +16,7 @@ mod sizes;
 #[cfg(test)]
 mod tests;
 
+pub use even::even;
 pub use fault::Fault;
 pub use lattice::lattice;
 pub use packing::{largest_solids_fraction, packed, random};

@@ -40,12 +40,7 @@ pub fn random(region: &Region, radii: &[f64], random: &mut Random) -> Result<Vec
     if radii.is_empty() {
         return Ok(Vec::new());
     }
-    let fraction = region.solids_fraction(radii);
-    let limit = largest_solids_fraction(region.dimensions);
-    // A box computed from the limit may miss it by rounding.
-    if fraction > limit * (1.0 + 1e-9) {
-        return Err(Fault::TooDense { fraction, limit });
-    }
+    let fraction = within_limit(region, radii)?;
     let sparse = match region.dimensions {
         Dimensions::Two => 0.50,
         Dimensions::Three => 0.30,
@@ -56,6 +51,17 @@ pub fn random(region: &Region, radii: &[f64], random: &mut Random) -> Result<Vec
         return Ok(positions);
     }
     pack(region, radii, fraction, random)
+}
+
+/// Share of the box that the grains fill [-], where it can be filled at random so far.
+pub(super) fn within_limit(region: &Region, radii: &[f64]) -> Result<f64, Fault> {
+    let fraction = region.solids_fraction(radii);
+    let limit = largest_solids_fraction(region.dimensions);
+    // A box computed from the limit may miss it by rounding.
+    if fraction > limit * (1.0 + 1e-9) {
+        return Err(Fault::TooDense { fraction, limit });
+    }
+    Ok(fraction)
 }
 
 /// Centres [m] of a random packing without overlap that fills the box from the floor up to the height
@@ -104,16 +110,27 @@ pub fn packed(
 }
 
 fn pack(region: &Region, radii: &[f64], fraction: f64, random: &mut Random) -> Result<Vec<Vec3>, Fault> {
+    let positions = start(region, radii, fraction, random);
+    let mut positions = relaxed(region, radii, fraction, positions, random)?;
+    shake(region, radii, &mut positions, SWEEPS, f64::INFINITY, random);
+    Ok(positions)
+}
+
+/// Pushes grains that overlap apart.
+pub(super) fn relaxed(
+    region: &Region,
+    radii: &[f64],
+    fraction: f64,
+    positions: Vec<Vec3>,
+    random: &mut Random,
+) -> Result<Vec<Vec3>, Fault> {
     // Radii somewhat too large leave room for rest.
     let excess = 0.3 * room(region.dimensions, fraction);
-    let positions = start(region, radii, fraction, random);
     let result = match Relaxation::new(region, radii, positions, excess).run(STEPS) {
         Ok(relaxed) => Ok(relaxed),
         Err((jammed, _)) => regrow(region, radii, jammed, random),
     };
-    let mut positions = result.map_err(|overlap| Fault::Jammed { fraction, overlap })?;
-    shake(region, radii, &mut positions, SWEEPS, random);
-    Ok(positions)
+    result.map_err(|overlap| Fault::Jammed { fraction, overlap })
 }
 
 /// Shrinks grains that jammed and lets them grow back by and by, shaken in between so that they find
@@ -146,7 +163,7 @@ fn grow(
     for shrinkage in SHRINKAGES {
         let shrunken: Vec<f64> = radii.iter().map(|r| r * (1.0 - shrinkage)).collect();
         positions = Relaxation::new(region, &shrunken, positions, GROWTH_EXCESS).run(STEPS)?;
-        shake(region, &shrunken, &mut positions, sweeps, random);
+        shake(region, &shrunken, &mut positions, sweeps, f64::INFINITY, random);
     }
     Ok(positions)
 }

@@ -8,26 +8,31 @@ use super::insertion::touches;
 use super::levels::Levels;
 use crate::math::{Random, Vec3};
 
-/// Moves grains that do not overlap about, so that they still do not; every grain `sweeps` times.
+/// Moves grains that do not overlap about, so that they still do not; every grain `sweeps` times, none
+/// farther than `reach` [m] from where it was.
 pub(super) fn shake(
     region: &Region,
     radii: &[f64],
     positions: &mut [Vec3],
     sweeps: usize,
+    reach: f64,
     random: &mut Random,
 ) {
     let mut levels = Levels::new(region, radii, 0.0);
     for (grain, position) in positions.iter().enumerate() {
         levels.insert(grain, position);
     }
+    let anchors = positions.to_vec();
     let mut step = 0.1 * radii.iter().sum::<f64>() / radii.len() as f64;
     for _ in 0..sweeps {
         let mut kept = 0;
         for grain in 0..radii.len() {
             let place = beside(region, radii[grain], &positions[grain], step, random);
-            let taken = levels.any_near(&place, radii[grain], |other| {
-                other != grain && touches(region, &place, radii[grain], &positions[other], radii[other])
-            });
+            let strayed = region.nearest(place - anchors[grain]).norm_squared() > reach * reach;
+            let taken = strayed
+                || levels.any_near(&place, radii[grain], |other| {
+                    other != grain && touches(region, &place, radii[grain], &positions[other], radii[other])
+                });
             if !taken {
                 levels.displace(grain, &positions[grain], &place);
                 positions[grain] = place;

@@ -114,6 +114,12 @@ impl Grains {
         1.0 / self.spin[grain].0[3]
     }
 
+    /// Porosity [-] that the grain at a place sees, and velocity of the fluid along z [m/s].
+    pub fn seen(&self, grain: usize) -> [f64; 2] {
+        let [.., porosity, flow, _, _] = self.spin[grain].0;
+        [porosity, flow]
+    }
+
     /// Where each number is stored.
     pub fn places(&self) -> Vec<u32> {
         let mut places = vec![0; self.len()];

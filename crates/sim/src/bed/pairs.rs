@@ -1,7 +1,7 @@
 //! The pairs that may touch soon, in blocks of eight, and what their contacts remember.
 
 use crate::math::Vector;
-use crate::neighbours::{LANES, Period, Search, visit_near_pairs};
+use crate::neighbours::{LANES, Period, Search, squared_distance, visit_near_pairs};
 
 use super::grains::Grains;
 
@@ -208,16 +208,7 @@ fn standing(grains: &Grains, period: Period, [i, j]: [u32; 2]) -> Standing {
         return Standing::Dormant;
     }
     let (a, b) = (&grains.motion[i].0, &grains.motion[j].0);
-    let squared: f64 = (0..3)
-        .map(|axis| {
-            let mut apart = (a[axis] - b[axis]).abs();
-            if period[axis] > 0.0 {
-                apart = apart.min(period[axis] - apart);
-            }
-            apart * apart
-        })
-        .sum();
-    if squared < (a[3] + b[3]).powi(2) {
+    if squared_distance(a, b, period) < (a[3] + b[3]).powi(2) {
         Standing::Touching
     } else {
         Standing::Apart

@@ -15,6 +15,20 @@ pub struct Touching {
     pub walls: Vec<(u32, u32)>,
 }
 
+impl Touching {
+    /// Contacts of each of so many grains by its place, with grains and walls.
+    pub fn numbers(&self, grains: usize) -> Vec<u16> {
+        let mut numbers = vec![0; grains];
+        for grain in self.pairs.iter().flatten() {
+            numbers[*grain as usize] += 1;
+        }
+        for (grain, _) in &self.walls {
+            numbers[*grain as usize] += 1;
+        }
+        numbers
+    }
+}
+
 impl Bed {
     /// All contacts now.
     pub fn contacts(&self) -> Touching {
@@ -39,8 +53,24 @@ impl Bed {
         way
     }
 
+    /// Contacts of each grain by its place, with grains and walls.
+    pub fn contact_numbers(&self) -> Vec<u16> {
+        self.contacts().numbers(self.grains.len())
+    }
+
     /// What the forces between grains sum up to, over the sum of their sizes [-]: zero but for rounding.
     pub fn momentum_error(&self) -> f64 {
+        let (sum, sizes) = self.balance();
+        if sizes > 0.0 { sum / sizes } else { 0.0 }
+    }
+
+    /// What the forces between grains sum up to [N]: zero but for rounding.
+    pub fn unbalanced_force(&self) -> f64 {
+        self.balance().0
+    }
+
+    /// Size of the sum of the forces between grains, and the sum of their sizes [N].
+    fn balance(&self) -> (f64, f64) {
         let mut forces = vec![crate::neighbours::Record::default(); self.forces.len()];
         let mut pairs = self.pairs.clone();
         in_widest(PairSweep {
@@ -56,7 +86,7 @@ impl Bed {
             sum += force;
             sizes += force.norm();
         }
-        if sizes > 0.0 { sum.norm() / sizes } else { 0.0 }
+        (sum.norm(), sizes)
     }
 
     fn overlap(&self, i: usize, j: usize) -> f64 {

@@ -10,19 +10,25 @@
 //! divides it by ε and uses the buoyancy of the pure fluid.
 
 mod any;
+mod beetstra;
+mod beetstra_cello;
 mod coulson_richardson;
 mod dallavalle;
 mod di_felice;
 pub mod lift;
+mod polydisperse;
 mod schiller_naumann;
 mod stokes;
 pub mod voidage;
 
 pub use any::{AnyDrag, AnyVoidage, SphereDrag};
+pub use beetstra::Beetstra;
+pub use beetstra_cello::BeetstraCello;
 pub use coulson_richardson::CoulsonRichardson;
 pub use dallavalle::Dallavalle;
 pub use di_felice::DiFelice;
 pub use lift::{LiftLaw, Magnus, Saffman, Whirl};
+pub use polydisperse::{PolydisperseLaw, polydisperse_coefficient};
 pub use schiller_naumann::SchillerNaumann;
 pub use stokes::Stokes;
 pub use voidage::{Hindered, VoidageLaw};
@@ -132,6 +138,18 @@ mod tests {
             let wide = law.factor(W::from_lanes(re), W::from_lanes(porosity)).lanes();
             let single: [f64; 8] = std::array::from_fn(|lane| law.factor(re[lane], porosity[lane]));
             assert_eq!(wide, single);
+            let sizes: [f64; 8] = std::array::from_fn(|lane| 0.4 + 0.3 * lane as f64);
+            let mixed = BeetstraCello;
+            let wide = PolydisperseLaw::factor(
+                &mixed,
+                W::from_lanes(re),
+                W::from_lanes(porosity),
+                W::from_lanes(sizes),
+            );
+            let single: [f64; 8] = std::array::from_fn(|lane| {
+                PolydisperseLaw::factor(&mixed, re[lane], porosity[lane], sizes[lane])
+            });
+            assert_eq!(wide.lanes(), single);
         }
     }
 
@@ -155,6 +173,7 @@ mod tests {
         on_all_registers(SchillerNaumann);
         on_all_registers(CoulsonRichardson);
         on_all_registers(DiFelice);
+        on_all_registers(Beetstra);
         on_all_registers(Hindered {
             sphere: SchillerNaumann,
             voidage: voidage::AlvimLiteral,

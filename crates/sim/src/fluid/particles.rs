@@ -6,9 +6,9 @@
 
 use super::EquationOfState;
 use super::kernel::{Kernel, Lucy, WendlandC2};
-use super::sweep::{Coefficients, Rates, Record, sweep};
+use super::sweep::{Coefficients, Rates, Record, Sweep};
 use crate::math::Vec3;
-use crate::neighbours::{Image, Rows, images};
+use crate::neighbours::{Image, Rows, images, in_widest};
 
 /// Numerical choices of a fluid.
 #[derive(Clone, Copy, Debug)]
@@ -200,10 +200,10 @@ impl FluidParticles {
                 * self.numerics.state.sound_speed,
         };
         match (self.numerics.lucy, self.numerics.artificial > 0.0) {
-            (false, false) => self.sweep_with::<_, false>(WendlandC2, &coefficients),
-            (false, true) => self.sweep_with::<_, true>(WendlandC2, &coefficients),
-            (true, false) => self.sweep_with::<_, false>(Lucy, &coefficients),
-            (true, true) => self.sweep_with::<_, true>(Lucy, &coefficients),
+            (false, false) => self.sweep_with::<_, false>(WendlandC2, coefficients),
+            (false, true) => self.sweep_with::<_, true>(WendlandC2, coefficients),
+            (true, false) => self.sweep_with::<_, false>(Lucy, coefficients),
+            (true, true) => self.sweep_with::<_, true>(Lucy, coefficients),
         }
         self.read_rates();
     }
@@ -223,8 +223,14 @@ impl FluidParticles {
         }
     }
 
-    fn sweep_with<K: Kernel, const ARTIFICIAL: bool>(&mut self, kernel: K, coefficients: &Coefficients) {
-        sweep::<K, ARTIFICIAL>(kernel, coefficients, &self.records, &self.rows, &mut self.rates);
+    fn sweep_with<K: Kernel, const ARTIFICIAL: bool>(&mut self, kernel: K, coefficients: Coefficients) {
+        in_widest(Sweep::<K, ARTIFICIAL> {
+            kernel,
+            coefficients,
+            records: &self.records,
+            rows: &self.rows,
+            rates: &mut self.rates,
+        });
     }
 
     fn write_records(&mut self, ahead: f64) {

@@ -16,9 +16,7 @@
 
 use super::kernel::Kernel;
 pub(super) use crate::neighbours::Record;
-#[cfg(target_arch = "x86_64")]
-use crate::neighbours::{Avx2, Avx512};
-use crate::neighbours::{LANES, Plain, Rows, Wide};
+use crate::neighbours::{LANES, Rows, Wide, WideWork};
 
 /// Constants of a sweep.
 #[derive(Clone, Copy, Debug)]
@@ -40,93 +38,61 @@ pub struct Rates {
     pub divergence: f64,
 }
 
-/// Rates of the particles that own the rows. `ARTIFICIAL` compiles the K term in.
-pub fn sweep<K: Kernel, const ARTIFICIAL: bool>(
-    kernel: K,
-    coefficients: &Coefficients,
-    records: &[Record],
-    rows: &Rows,
-    rates: &mut [Rates],
-) {
-    #[cfg(target_arch = "x86_64")]
-    {
-        if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
-            // SAFETY: the features were just detected.
-            return unsafe { sweep_avx512::<K, ARTIFICIAL>(kernel, coefficients, records, rows, rates) };
-        }
-        if is_x86_feature_detected!("avx2") {
-            // SAFETY: the feature was just detected.
-            return unsafe { sweep_avx2::<K, ARTIFICIAL>(kernel, coefficients, records, rows, rates) };
-        }
-    }
-    sweep_wide::<K, Plain, ARTIFICIAL>(kernel, coefficients, records, rows, rates);
+/// Writes the rates of the particles that own the rows. `ARTIFICIAL` compiles the K term in.
+pub struct Sweep<'a, K, const ARTIFICIAL: bool> {
+    pub kernel: K,
+    pub coefficients: Coefficients,
+    pub records: &'a [Record],
+    pub rows: &'a Rows,
+    pub rates: &'a mut [Rates],
 }
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
-fn sweep_avx512<K: Kernel, const ARTIFICIAL: bool>(
-    kernel: K,
-    coefficients: &Coefficients,
-    records: &[Record],
-    rows: &Rows,
-    rates: &mut [Rates],
-) {
-    sweep_wide::<K, Avx512, ARTIFICIAL>(kernel, coefficients, records, rows, rates);
-}
+impl<K: Kernel, const ARTIFICIAL: bool> WideWork for Sweep<'_, K, ARTIFICIAL> {
+    type Output = ();
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn sweep_avx2<K: Kernel, const ARTIFICIAL: bool>(
-    kernel: K,
-    coefficients: &Coefficients,
-    records: &[Record],
-    rows: &Rows,
-    rates: &mut [Rates],
-) {
-    sweep_wide::<K, Avx2, ARTIFICIAL>(kernel, coefficients, records, rows, rates);
-}
-
-#[inline(always)]
-fn sweep_wide<K: Kernel, W: Wide, const ARTIFICIAL: bool>(
-    kernel: K,
-    coefficients: &Coefficients,
-    records: &[Record],
-    rows: &Rows,
-    rates: &mut [Rates],
-) {
-    let slope_unit = (1.0 / coefficients.smoothing).powi(5);
-    let per_smoothing = W::splat(1.0 / coefficients.smoothing);
-    let artificial = W::splat(coefficients.artificial);
-    let viscous = 2.0 * coefficients.viscosity;
-    for (target, rate) in rates.iter_mut().enumerate() {
-        let mut own = [W::splat(0.0); 8];
-        for (own, value) in own.iter_mut().zip(&records[target].0) {
-            *own = W::splat(*value);
-        }
-        let mut pressed = [W::splat(0.0); 3];
-        let mut sheared = [W::splat(0.0); 3];
-        let mut approached = W::splat(0.0);
-        for members in rows.row(target).as_chunks::<LANES>().0 {
-            let other = W::gather(records, members);
-            let r = [own[0] - other[0], own[1] - other[1], own[2] - other[2]];
-            let v = [own[3] - other[3], own[4] - other[4], own[5] - other[5]];
-            let distance = (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]).sqrt();
-            let slope = other[6] * kernel.slope(distance * per_smoothing);
-            let approach = v[0] * r[0] + v[1] * r[1] + v[2] * r[2];
-            let mut along = slope * (own[7] + other[7]);
-            if ARTIFICIAL {
-                along = along - slope * artificial * approach / distance;
+    #[inline(always)]
+    fn run<W: Wide>(self) {
+        let Sweep {
+            kernel,
+            coefficients,
+            records,
+            rows,
+            rates,
+        } = self;
+        let slope_unit = (1.0 / coefficients.smoothing).powi(5);
+        let per_smoothing = W::splat(1.0 / coefficients.smoothing);
+        let artificial = W::splat(coefficients.artificial);
+        let viscous = 2.0 * coefficients.viscosity;
+        for (target, rate) in rates.iter_mut().enumerate() {
+            let mut own = [W::splat(0.0); 8];
+            for (own, value) in own.iter_mut().zip(&records[target].0) {
+                *own = W::splat(*value);
+            }
+            let mut pressed = [W::splat(0.0); 3];
+            let mut sheared = [W::splat(0.0); 3];
+            let mut approached = W::splat(0.0);
+            for members in rows.row(target).as_chunks::<LANES>().0 {
+                let other = W::gather(records, members);
+                let r = [own[0] - other[0], own[1] - other[1], own[2] - other[2]];
+                let v = [own[3] - other[3], own[4] - other[4], own[5] - other[5]];
+                let distance = (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]).sqrt();
+                let slope = other[6] * kernel.slope(distance * per_smoothing);
+                let approach = v[0] * r[0] + v[1] * r[1] + v[2] * r[2];
+                let mut along = slope * (own[7] + other[7]);
+                if ARTIFICIAL {
+                    along = along - slope * artificial * approach / distance;
+                }
+                for axis in 0..3 {
+                    pressed[axis] = pressed[axis] + along * r[axis];
+                    sheared[axis] = sheared[axis] + slope * v[axis];
+                }
+                approached = approached + slope * approach;
             }
             for axis in 0..3 {
-                pressed[axis] = pressed[axis] + along * r[axis];
-                sheared[axis] = sheared[axis] + slope * v[axis];
+                let stress = viscous * sheared[axis].total() - pressed[axis].total();
+                rate.stress[axis] = stress * slope_unit;
             }
-            approached = approached + slope * approach;
+            rate.divergence = -approached.total() * slope_unit;
         }
-        for axis in 0..3 {
-            let stress = viscous * sheared[axis].total() - pressed[axis].total();
-            rate.stress[axis] = stress * slope_unit;
-        }
-        rate.divergence = -approached.total() * slope_unit;
     }
 }

@@ -7,6 +7,7 @@ mod rows;
 mod wide;
 
 pub use cells::CellGrid;
+pub(crate) use near_pairs::squared_distance;
 pub use near_pairs::{Period, Search, visit_near_pairs};
 pub use rows::{Image, LANES, Rows, images};
 pub use wide::Record;

@@ -80,18 +80,26 @@ impl Near<'_> {
     #[inline(always)]
     fn holds(&self, i: usize, j: usize) -> bool {
         let (a, b) = (&self.spheres[i].0, &self.spheres[j].0);
-        let mut squared = 0.0;
-        for axis in 0..3 {
-            let mut apart = (a[axis] - b[axis]).abs();
-            let side = self.period[axis];
-            if side > 0.0 && apart > 0.5 * side {
-                apart = side - apart;
-            }
-            squared += apart * apart;
-        }
+        let squared = squared_distance(a, b, self.period);
         let far = a[3] + b[3] + self.reach;
         squared < far * far
     }
+}
+
+/// Squared distance [m²] of two positions that lie within the periodic sides, x, y, z first, by the
+/// shortest way.
+#[inline(always)]
+pub fn squared_distance(a: &[f64; 8], b: &[f64; 8], period: Period) -> f64 {
+    let mut squared = 0.0;
+    for axis in 0..3 {
+        let mut apart = (a[axis] - b[axis]).abs();
+        let side = period[axis];
+        if side > 0.0 && apart > 0.5 * side {
+            apart = side - apart;
+        }
+        squared += apart * apart;
+    }
+    squared
 }
 
 /// Spheres sorted into classes of size, the largest first.

@@ -3,6 +3,7 @@
 use super::setup::Settling;
 use super::{ConstantPorosityBlock, Fault, Fluid, Grains, Medium, Scene, SingleSphere, SoundSpeed, SphFluid};
 
+const MOST_THREADS: u32 = 64;
 /// Fewest particle spacings across a periodic column: a support of 2h must not meet its own image.
 const FEWEST_ACROSS: f64 = 6.0;
 /// Admitted departure of a spacing that is adjusted to fit a column.
@@ -16,13 +17,14 @@ pub fn check(scene: &Scene) -> Vec<Fault> {
         Scene::ConstantPorosityBlock(block) => porosity_block(block, &mut list),
         Scene::BinaryCollision(collision) => super::collision::check(collision, &mut list),
         Scene::Sedimentation(sedimentation) => super::sedimentation::check(sedimentation, &mut list),
+        Scene::Suspension(suspension) => super::suspension::check(suspension, &mut list),
     }
     // The safe step follows from numbers that must make sense first.
     if list.0.is_empty() {
         match scene {
             Scene::SingleSphere(sphere) => time_step(&Settling::of_sphere(sphere), &mut list),
             Scene::ConstantPorosityBlock(block) => time_step(&Settling::of_block(block), &mut list),
-            Scene::BinaryCollision(_) | Scene::Sedimentation(_) => {}
+            Scene::BinaryCollision(_) | Scene::Sedimentation(_) | Scene::Suspension(_) => {}
         }
     }
     list.0
@@ -75,7 +77,7 @@ impl List {
         holds
     }
 
-    fn between(&mut self, path: &str, value: f64, low: f64, high: f64) -> bool {
+    pub(super) fn between(&mut self, path: &str, value: f64, low: f64, high: f64) -> bool {
         let holds = value > low && value < high;
         if !holds {
             let name = path.rsplit('.').next().unwrap_or(path);
@@ -84,6 +86,22 @@ impl List {
         }
         holds
     }
+}
+
+/// Asks for threads and snapshots that make sense; says whether both do.
+pub(super) fn threads_and_snapshots(threads: u32, snapshots: u32, list: &mut List) -> bool {
+    let mut sound = true;
+    if !(1..=MOST_THREADS).contains(&threads) {
+        let message = format!("`threads` is {threads}, it must lie between 1 and {MOST_THREADS}");
+        list.add("threads", message, "below 20000 grains one thread is fastest");
+        sound = false;
+    }
+    if snapshots == 1 {
+        let message = "`snapshots` is 1, but the first and the last are always kept".to_owned();
+        list.add("snapshots", message, "write 0 for none, or 2 and more");
+        sound = false;
+    }
+    sound
 }
 
 /// What both scenes with grains in a column share.
@@ -124,7 +142,7 @@ fn common(scene: &Common, list: &mut List) -> bool {
         sound = false;
     }
     if let (true, Fluid::Sph(fluid)) = (sound, scene.fluid) {
-        particle_fluid(scene, fluid, list);
+        particle_fluid(fluid, scene.grains.diameter, scene.column, list);
     }
     sound
 }
@@ -136,11 +154,18 @@ fn medium(fluid: &Fluid) -> &Medium {
     }
 }
 
-fn particle_fluid(scene: &Common, fluid: &SphFluid, list: &mut List) {
+/// What of a particle fluid around grains of a diameter [m] cannot be simulated; says whether all can.
+pub(super) fn particle_fluid(
+    fluid: &SphFluid,
+    diameter: f64,
+    column: &super::Column,
+    list: &mut List,
+) -> bool {
+    let before = list.0.len();
     if list.positive("fluid.sph.spacing_over_diameter", fluid.spacing_over_diameter) {
-        let spacing = fluid.spacing_over_diameter * scene.grains.diameter;
-        fits("width", scene.column.width, spacing, list);
-        fits("height", scene.column.height, spacing, list);
+        let spacing = fluid.spacing_over_diameter * diameter;
+        fits("width", column.width, spacing, list);
+        fits("height", column.height, spacing, list);
     }
     let scheme = &fluid.scheme;
     for (name, value) in [
@@ -157,6 +182,7 @@ fn particle_fluid(scene: &Common, fluid: &SphFluid, list: &mut List) {
     if let SoundSpeed::Value(speed) = scheme.sound_speed {
         list.positive("fluid.sph.scheme.sound_speed", speed);
     }
+    list.0.len() == before
 }
 
 /// A side of the column must hold a whole number of particle spacings.

@@ -17,6 +17,7 @@ pub fn describe(scene: &Scene) -> Description {
         Scene::ConstantPorosityBlock(block) => Settling::of_block(block),
         Scene::BinaryCollision(collision) => return super::collision::describe(collision),
         Scene::Sedimentation(scene) => return super::sedimentation::describe(scene),
+        Scene::Suspension(scene) => return super::suspension::describe(scene),
     };
     let (dt, steps) = settling.steps();
     let grains = settling.positions().len() as u64;
@@ -86,6 +87,8 @@ fn grains_in_words(settling: &Settling, description: &mut Description) {
         Drag::SchillerNaumann => "Schiller–Naumann drag",
         Drag::DiFelice => "Di Felice drag: Dallavalle times a power of the porosity",
         Drag::CoulsonRichardson => "Coulson–Richardson drag",
+        Drag::Beetstra => "Beetstra drag",
+        Drag::BeetstraCello => "Beetstra drag, shared out among the sizes after Cello",
     };
     description.active.push(format!(
         "{law}, on the superficial slip, integrated exactly over each step"

@@ -3,6 +3,7 @@
 mod check;
 mod collision;
 mod describe;
+mod divergence;
 mod observables;
 mod passage;
 mod profiles;
@@ -11,6 +12,8 @@ mod run_prescribed;
 mod run_sph;
 mod sedimentation;
 mod setup;
+mod snapshots;
+mod suspension;
 
 pub use check::check;
 pub use collision::{BinaryCollision, IntegratorChoice, Material, Normal, Partner, Rolling, Tangential};
@@ -20,6 +23,7 @@ pub use sedimentation::{
     Arrangement, Charge, Cohesion, Container, Detection, Dimensions, Floor, GrainClass, GrainDrag, Lift,
     Placed, Sedimentation, Sides, SlicePorosity, Snapshot, StillFluid, Until, Voidage,
 };
+pub use suspension::{Homogeneity, SoftContact, SuspendedClass, SuspendingFluid, Suspension};
 
 use crate::outcome::{Control, Failure, Outcome};
 
@@ -30,6 +34,7 @@ pub enum Scene {
     ConstantPorosityBlock(ConstantPorosityBlock),
     BinaryCollision(BinaryCollision),
     Sedimentation(Sedimentation),
+    Suspension(Suspension),
 }
 
 impl Scene {
@@ -37,6 +42,7 @@ impl Scene {
     pub fn threads(&self) -> u32 {
         match self {
             Scene::Sedimentation(scene) => scene.threads,
+            Scene::Suspension(scene) => scene.threads,
             Scene::SingleSphere(_) | Scene::ConstantPorosityBlock(_) | Scene::BinaryCollision(_) => 1,
         }
     }
@@ -110,6 +116,10 @@ pub enum Drag {
     /// Dallavalle with the Di Felice voidage function.
     DiFelice,
     CoulsonRichardson,
+    /// Beetstra, for beds of equal spheres.
+    Beetstra,
+    /// Beetstra shared out among grains of several sizes.
+    BeetstraCello,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -242,6 +252,17 @@ pub enum Slip {
     Interstitial,
 }
 
+impl Scheme {
+    /// The recommended scheme where grains lie at random: plain kernels. Sharpened ones give back the edges
+    /// of a lattice block, but among random grains they amplify the noise of counting.
+    pub fn for_random_grains() -> Scheme {
+        Scheme {
+            sharpening: SharpeningChoice::None,
+            ..Scheme::default()
+        }
+    }
+}
+
 impl Default for Scheme {
     fn default() -> Self {
         Scheme {
@@ -323,6 +344,7 @@ pub fn run(scene: &Scene, control: &Control) -> Result<Outcome, Box<Failure>> {
         Scene::ConstantPorosityBlock(block) => setup::Settling::of_block(block),
         Scene::BinaryCollision(collision) => return collision::run(collision, control),
         Scene::Sedimentation(scene) => return sedimentation::run(scene, control),
+        Scene::Suspension(scene) => return suspension::run(scene, control),
     };
     match settling.sph() {
         Some(sph) => setup::with_law!(settling.drag, law => run_sph::run(&settling, sph, law, control)),

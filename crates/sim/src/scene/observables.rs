@@ -227,6 +227,7 @@ pub fn observables(scene: &Scene) -> Vec<Observable> {
         Scene::ConstantPorosityBlock(block) => Settling::of_block(block),
         Scene::BinaryCollision(collision) => return super::collision::observables(collision),
         Scene::Sedimentation(scene) => return super::sedimentation::observables(scene),
+        Scene::Suspension(scene) => return super::suspension::observables(scene),
     };
     let particles = if settling.sph().is_some() {
         PARTICLES

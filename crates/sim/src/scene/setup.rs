@@ -6,7 +6,7 @@ use super::{
     Column, ConstantPorosityBlock, Drag, Fluid, Grains, Hydrostatics, Medium, SingleSphere, SoundSpeed,
     SphFluid,
 };
-use crate::drag::{CoulsonRichardson, Dallavalle, DiFelice, DragScale, SchillerNaumann, Stokes};
+use crate::drag::DragScale;
 use crate::math::Vec3;
 
 /// Courant number of the fluid step in terms of h/c.
@@ -39,6 +39,14 @@ macro_rules! with_law {
             }
             crate::scene::Drag::CoulsonRichardson => {
                 let $law = crate::drag::CoulsonRichardson;
+                $body
+            }
+            crate::scene::Drag::Beetstra => {
+                let $law = crate::drag::Beetstra;
+                $body
+            }
+            crate::scene::Drag::BeetstraCello => {
+                let $law = crate::drag::BeetstraCello;
                 $body
             }
         }
@@ -286,11 +294,5 @@ impl<'a> Settling<'a> {
 /// Isolated terminal speed [m/s] under a law, used by `describe`.
 pub fn isolated_speed(settling: &Settling) -> f64 {
     let force = settling.excess_weight().abs();
-    match settling.drag {
-        Drag::Stokes => settling.scale().balance(&Stokes, force, 1.0),
-        Drag::Dallavalle => settling.scale().balance(&Dallavalle, force, 1.0),
-        Drag::SchillerNaumann => settling.scale().balance(&SchillerNaumann, force, 1.0),
-        Drag::DiFelice => settling.scale().balance(&DiFelice, force, 1.0),
-        Drag::CoulsonRichardson => settling.scale().balance(&CoulsonRichardson, force, 1.0),
-    }
+    with_law!(settling.drag, law => settling.scale().balance(&law, force, 1.0))
 }

@@ -5,10 +5,9 @@ use super::room::fits;
 use super::step::{FEWEST_STEPS, Limits, limits, overdamped};
 use crate::contact::EffectiveMass;
 use crate::scene::Normal;
-use crate::scene::check::{List, millimetres};
+use crate::scene::check::{List, millimetres, threads_and_snapshots};
 use crate::scene::collision::check_laws;
 
-const MOST_THREADS: u32 = 64;
 /// Every class meets every other one when the step is picked.
 const MOST_CLASSES: usize = 64;
 
@@ -23,9 +22,9 @@ pub fn check(scene: &Sedimentation, list: &mut List) {
     }
 }
 
-/// Path of a class: a scene with one calls it `grains`.
-fn class_path(scene: &Sedimentation, index: usize) -> String {
-    if scene.classes.len() == 1 {
+/// Path of a class: a scene with one of them calls it `grains`.
+pub fn class_path(classes: usize, index: usize) -> String {
+    if classes == 1 {
         "grains".to_owned()
     } else {
         format!("classes.{index}")
@@ -50,7 +49,7 @@ fn classes(scene: &Sedimentation, list: &mut List) -> bool {
     }
     let mut sound = (1..=MOST_CLASSES).contains(&scene.classes.len());
     for (index, class) in scene.classes.iter().enumerate() {
-        sound &= one_class(&class_path(scene, index), class, list);
+        sound &= one_class(&class_path(scene.classes.len(), index), class, list);
     }
     sound
 }
@@ -148,19 +147,7 @@ fn switches(scene: &Sedimentation, list: &mut List) -> bool {
         list.add("central_slice", message, "1 takes the whole bed");
         sound = false;
     }
-    if !(1..=MOST_THREADS).contains(&scene.threads) {
-        let message = format!(
-            "`threads` is {}, it must lie between 1 and {MOST_THREADS}",
-            scene.threads
-        );
-        list.add("threads", message, "below 20000 grains one thread is fastest");
-        sound = false;
-    }
-    if scene.snapshots == 1 {
-        let message = "`snapshots` is 1, but the first and the last are always kept".to_owned();
-        list.add("snapshots", message, "write 0 for none, or 2 and more");
-        sound = false;
-    }
+    sound &= threads_and_snapshots(scene.threads, scene.snapshots, list);
     if scene.porosity == SlicePorosity::Areas && scene.dimensions == Dimensions::Three {
         let message = "`areas` is known in two dimensions only".to_owned();
         list.add(
@@ -199,7 +186,8 @@ fn parts(scene: &Sedimentation, list: &mut List) -> bool {
     holds
 }
 
-fn time_step(scene: &Sedimentation, list: &mut List) {
+/// Refuses a step beyond the longest safe one.
+pub fn time_step(scene: &Sedimentation, list: &mut List) {
     if scene.unsafe_time_step {
         return;
     }

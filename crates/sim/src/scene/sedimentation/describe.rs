@@ -61,6 +61,7 @@ fn grains_in_words(scene: &Sedimentation, description: &mut Description) {
     };
     let arrangement = match &scene.arrangement {
         Arrangement::Random => "start at random, without overlap, over the whole box".to_owned(),
+        Arrangement::Even => "start at random, without overlap, evenly over the whole box".to_owned(),
         Arrangement::Lattice => "start on a cubic lattice shaken by a hundredth of its pitch".to_owned(),
         Arrangement::Packed { solids_fraction } => {
             format!("start packed at random to a solids fraction of {solids_fraction}")
@@ -152,6 +153,9 @@ fn drag(scene: &Sedimentation) -> Option<String> {
         GrainDrag::Stokes => "Stokes drag",
         GrainDrag::Dallavalle => "Dallavalle drag",
         GrainDrag::SchillerNaumann => "Schiller–Naumann drag",
+        GrainDrag::CoulsonRichardson => "Coulson–Richardson drag",
+        GrainDrag::Beetstra => "Beetstra drag",
+        GrainDrag::BeetstraCello => "Beetstra drag, shared out among the sizes after Cello",
     };
     let voidage = match scene.voidage {
         Voidage::None => "",

@@ -21,10 +21,12 @@ pub use model::{
     Placed, Sedimentation, Sides, SlicePorosity, Snapshot, StillFluid, Until, Voidage,
 };
 
-pub(super) use check::check;
+pub(super) use check::{check, class_path, time_step};
 pub(super) use describe::describe;
 pub(super) use observables::observables;
 pub(super) use run::run;
+pub(super) use start::start;
+pub(super) use step::limits;
 
 #[cfg(test)]
 mod tests;

@@ -102,6 +102,9 @@ pub enum Floor {
 pub enum Arrangement {
     /// At random without overlap, uniform over the whole box.
     Random,
+    /// At random without overlap, but evenly: the concentration is the same everywhere over lengths of many
+    /// grains, and that of each class by itself.
+    Even,
     /// A cubic lattice over the whole box, shaken by a hundredth of the pitch.
     Lattice,
     /// A dense random packing of this solids fraction [-], from the floor up.
@@ -157,13 +160,16 @@ pub struct Charge {
     pub cut_off: f64,
 }
 
-/// Drag of an isolated grain.
+/// Drag of an isolated grain; the last two hold their neighbours already.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GrainDrag {
     None,
     Stokes,
     Dallavalle,
     SchillerNaumann,
+    CoulsonRichardson,
+    Beetstra,
+    BeetstraCello,
 }
 
 /// What the neighbours make of it.

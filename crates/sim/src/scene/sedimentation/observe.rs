@@ -8,6 +8,7 @@ use crate::bed::Bed;
 use crate::coupling::permeability;
 use crate::coupling::slices::{solid_volume_between, sphere_volume_between};
 use crate::math::Vec3;
+use crate::scene::divergence::kinetic_energy;
 
 /// Speed of a settled grain, over the terminal speed [-].
 const SETTLED_SPEED: f64 = 0.01;
@@ -28,14 +29,7 @@ impl Settled {
     pub fn of(bed: &Bed, before: Option<&[Vec3]>, speed: f64) -> Settled {
         let grains = &bed.grains;
         let touching = bed.contacts();
-        let mut contacts = vec![0; grains.len()];
-        for &[i, j] in &touching.pairs {
-            contacts[i as usize] += 1;
-            contacts[j as usize] += 1;
-        }
-        for &(grain, _) in &touching.walls {
-            contacts[grain as usize] += 1;
-        }
+        let contacts = touching.numbers(grains.len());
         let quiet = |grain: usize| {
             let still = grains.velocity(grain).norm() < SETTLED_SPEED * speed;
             let number = grains.number[grain] as usize;
@@ -141,17 +135,13 @@ impl Measures {
         let mut mass = 0.0;
         for grain in moving {
             let (own, z) = (grains.mass(grain), grains.position(grain).z);
-            let (speed, spin) = (
-                grains.velocity(grain).norm(),
-                grains.angular_velocity(grain).norm(),
-            );
             mass += own;
             measures.centre_of_mass += own * z;
-            measures.mean_speed += speed / count;
-            measures.kinetic_energy += 0.5 * (own * speed * speed + grains.inertia(grain) * spin * spin);
+            measures.mean_speed += grains.velocity(grain).norm() / count;
             measures.top_height = measures.top_height.max(z + grains.radius(grain));
         }
         measures.centre_of_mass /= mass;
+        measures.kinetic_energy = kinetic_energy(bed);
         measures
     }
 

@@ -82,7 +82,7 @@ fn rounded_up(length: f64) -> f64 {
 
 fn arranged(scene: &Sedimentation, list: &mut List) -> bool {
     match &scene.arrangement {
-        Arrangement::Random => true,
+        Arrangement::Random | Arrangement::Even => true,
         Arrangement::Lattice => on_a_lattice(scene, list),
         Arrangement::Packed { solids_fraction } => packed(scene, *solids_fraction, list),
         Arrangement::Snapshot(snapshot) => snapshot::holds(scene, snapshot, list),

@@ -12,6 +12,8 @@ use crate::integrator::{Gear, RungeKutta4};
 use crate::math::Vec3;
 use crate::outcome::{Column, Control, Counters, Failure, FailureKind, Outcome, Scalar, Table};
 use crate::scene::IntegratorChoice;
+use crate::scene::divergence::{diverged, leapt};
+use crate::scene::snapshots::Snapshots;
 
 /// Rows of the time series in a second of simulated time, at least and at most in a run.
 const ROWS: [f64; 2] = [100.0, 1000.0];
@@ -19,8 +21,6 @@ const ROWS: [f64; 2] = [100.0, 1000.0];
 const ROW: f64 = 5e-3;
 /// Rows over which a settled grain has not moved.
 const WINDOW: usize = 2;
-/// Overlap over the smaller diameter at which a run counts as diverged [-].
-const DEEPEST: f64 = 0.05;
 /// Drag relaxation times after which grains fall at their first speed.
 const START_UP: f64 = 6.0;
 
@@ -114,15 +114,6 @@ fn failed(kind: FailureKind, reason: String, partial: Outcome) -> Box<Failure> {
     })
 }
 
-fn leapt(astray: &Astray, time: f64) -> String {
-    let (x, v) = (astray.position, astray.velocity);
-    format!(
-        "grain {} moves more than its radius in a step before t = {time:.6e} s: at ({:.4e}, {:.4e}, {:.4e}) m with \
-         ({:.3e}, {:.3e}, {:.3e}) m/s",
-        astray.grain, x.x, x.y, x.z, v.x, v.y, v.z
-    )
-}
-
 /// The run as it is recorded.
 struct Watch<'a> {
     scene: &'a Sedimentation,
@@ -138,11 +129,8 @@ struct Watch<'a> {
     settling_time: f64,
     first_speed: f64,
     deepest: f64,
-    snapshots: Vec<Snapshot>,
+    snapshots: Snapshots,
 }
-
-/// One kept instant: a row per grain.
-type Snapshot = (f64, Vec<[f64; 9]>);
 
 impl<'a> Watch<'a> {
     fn new(scene: &'a Sedimentation, bed: Bed, contact_time: f64, dt: f64) -> Self {
@@ -162,7 +150,7 @@ impl<'a> Watch<'a> {
             settling_time: f64::NAN,
             first_speed: f64::NAN,
             deepest: 0.0,
-            snapshots: Vec::new(),
+            snapshots: Snapshots::new(scene.snapshots, scene.duration),
         }
     }
 
@@ -196,8 +184,8 @@ impl<'a> Watch<'a> {
         let deepest = std::mem::take(&mut self.bed.deepest);
         self.deepest = self.deepest.max(deepest);
         self.rows.push((time, measures, deepest));
+        self.snapshots.keep(&self.bed, &settled.contacts, time, self.dt);
         self.settled = Some(settled);
-        self.keep(time);
     }
 
     /// Time in which drag stops the slowest grain [s].
@@ -223,46 +211,6 @@ impl<'a> Watch<'a> {
         middle.iter().map(|(_, speed)| speed).sum::<f64>() / middle.len() as f64
     }
 
-    /// Keeps a snapshot where one is due.
-    fn keep(&mut self, time: f64) {
-        let wanted = self.scene.snapshots;
-        if wanted < 2 {
-            return;
-        }
-        let due = self.snapshots.len() as f64 * self.scene.duration / f64::from(wanted - 1);
-        if time + 0.5 * self.dt < due {
-            return;
-        }
-        let snapshot = self.snapshot(time);
-        self.snapshots.push(snapshot);
-    }
-
-    fn snapshot(&self, time: f64) -> Snapshot {
-        let grains = &self.bed.grains;
-        let contacts = self.settled.as_ref().map(|settled| &settled.contacts);
-        let row = |place: u32| {
-            let grain = place as usize;
-            let (x, v) = (grains.position(grain), grains.velocity(grain));
-            let class = match grains.class[grain] {
-                u16::MAX => -1.0,
-                class => f64::from(class),
-            };
-            let contacts = contacts.map_or(0.0, |contacts| f64::from(contacts[grain]));
-            [
-                class,
-                x.x,
-                x.y,
-                x.z,
-                grains.radius(grain),
-                v.x,
-                v.y,
-                v.z,
-                contacts,
-            ]
-        };
-        (time, grains.places().into_iter().map(row).collect())
-    }
-
     fn all_settled(&self) -> bool {
         self.rows
             .last()
@@ -271,62 +219,10 @@ impl<'a> Watch<'a> {
 
     /// Why the run makes no sense any more.
     fn diverged(&self, done: u64) -> Option<String> {
-        let time = done as f64 * self.dt;
-        let (_, measures, deepest) = self.rows.last()?;
-        if !measures.kinetic_energy.is_finite() || self.bed.astray_spin().is_some() {
-            let grain = self.bed.astray_spin().unwrap_or(0);
-            return Some(format!(
-                "the motion is not finite at t = {time:.6e} s: {}",
-                self.whereabouts(grain)
-            ));
-        }
-        if *deepest > DEEPEST {
-            let touching = self.bed.deepest_contact().filter(|(_, depth)| *depth > 0.0);
-            let who = touching.map_or_else(
-                || format!("; fastest now: {}", self.fastest()),
-                |([i, j], depth)| {
-                    let at = self.bed.grains.places()[i as usize] as usize;
-                    let x = self.bed.grains.position(at);
-                    format!(
-                        "; deepest now: grains {i} and {j} at {:.1} %, at ({:.4e}, {:.4e}, {:.4e}) m",
-                        100.0 * depth,
-                        x.x,
-                        x.y,
-                        x.z
-                    )
-                },
-            );
-            return Some(format!(
-                "an overlap of {:.1} % of the diameter before t = {time:.6e} s: stiffer contacts or a shorter step \
-                 are needed{who}",
-                100.0 * deepest
-            ));
-        }
+        let (.., deepest) = self.rows.last()?;
         // Nothing can move faster than the fall through the whole box makes it.
         let most = 2.0 * self.scene.load() * self.scene.container.height;
-        (measures.kinetic_energy > most && most > 0.0).then(|| {
-            format!(
-                "the kinetic energy {:.3e} J at t = {time:.6e} s is over twice the work of gravity; fastest: {}",
-                measures.kinetic_energy,
-                self.fastest()
-            )
-        })
-    }
-
-    fn fastest(&self) -> String {
-        let speed = |grain: &usize| self.bed.grains.velocity(*grain).norm();
-        let fastest = (0..self.bed.grains.moving).max_by(|a, b| speed(a).total_cmp(&speed(b)));
-        fastest.map_or_else(|| "none".to_owned(), |grain| self.whereabouts(grain))
-    }
-
-    /// `grain 7 at (…) m with (…) m/s`
-    fn whereabouts(&self, grain: usize) -> String {
-        let grains = &self.bed.grains;
-        let (x, v) = (grains.position(grain), grains.velocity(grain));
-        format!(
-            "grain {} at ({:.4e}, {:.4e}, {:.4e}) m with ({:.3e}, {:.3e}, {:.3e}) m/s",
-            grains.number[grain], x.x, x.y, x.z, v.x, v.y, v.z
-        )
+        diverged(&self.bed, *deepest, most, done as f64 * self.dt)
     }
 
     /// Grains beyond the walls.
@@ -358,9 +254,12 @@ impl<'a> Watch<'a> {
                 column("porosity", "1", porosities),
             ],
         });
-        if self.scene.snapshots > 1 {
-            tables.push(self.kept());
-        }
+        let time = self.rows.last().map_or(0.0, |row| row.0);
+        let contacts = self
+            .settled
+            .as_ref()
+            .map_or(&[][..], |settled| settled.contacts.as_slice());
+        tables.extend(self.snapshots.table(&self.bed, contacts, time));
         let work = &self.bed.work;
         Outcome {
             scalars: self.scalars(),
@@ -471,52 +370,6 @@ impl<'a> Watch<'a> {
             ));
         }
         table
-    }
-
-    fn kept(&self) -> Table {
-        const FIELDS: [(&str, &str); 9] = [
-            ("class", "1"),
-            ("x", "m"),
-            ("y", "m"),
-            ("z", "m"),
-            ("radius", "m"),
-            ("speed_x", "m/s"),
-            ("speed_y", "m/s"),
-            ("speed_z", "m/s"),
-            ("coordination", "1"),
-        ];
-        // The end is kept as well where the run has ended early.
-        let time = self.rows.last().map_or(0.0, |row| row.0);
-        let missing = self.snapshots.last().is_none_or(|(kept, _)| *kept < time);
-        let last = missing.then(|| self.snapshot(time));
-        let all = || self.snapshots.iter().chain(&last);
-        let rows = || all().flat_map(|(_, rows)| rows);
-        let mut columns = vec![
-            column(
-                "time",
-                "s",
-                all()
-                    .flat_map(|(time, rows)| rows.iter().map(|_| *time))
-                    .collect(),
-            ),
-            column(
-                "grain",
-                "1",
-                all()
-                    .flat_map(|(_, rows)| (0..rows.len()).map(|number| number as f64))
-                    .collect(),
-            ),
-        ];
-        columns.extend(
-            FIELDS
-                .iter()
-                .enumerate()
-                .map(|(field, (name, unit))| column(name, unit, rows().map(|row| row[field]).collect())),
-        );
-        Table {
-            name: "snapshots",
-            columns,
-        }
     }
 }
 

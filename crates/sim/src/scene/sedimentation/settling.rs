@@ -1,11 +1,9 @@
 //! How fast grains fall before they meet anything: estimates for the step and for what is told.
 
-use std::f64::consts::PI;
-
 use super::model::{Charge, GrainDrag, Sedimentation, StillFluid, Voidage};
 use crate::cohesion::Coulomb;
 use crate::contact::Body;
-use crate::drag::{Dallavalle, DiFelice, DragLaw, SchillerNaumann, Stokes};
+use crate::drag::{self, AnyDrag, AnyVoidage, SphereDrag};
 use crate::math::bisect;
 use crate::scene::Medium;
 
@@ -39,20 +37,30 @@ impl Sedimentation {
 
     /// Drag per superficial slip β [kg/s] at a slip speed [m/s] and a porosity [-]; zero without drag.
     pub fn drag_coefficient(&self, grain: &Body, slip: f64, porosity: f64) -> f64 {
-        let re = self.reynolds(grain, slip);
+        let medium = self.fluid.medium();
+        self.drag_law().map_or(0.0, |law| {
+            let fluid = [medium.density, medium.viscosity];
+            drag::coefficient(&law, fluid, 2.0 * grain.radius, slip, porosity)
+        })
+    }
+
+    /// The law that drags every grain; `None` without drag.
+    pub fn drag_law(&self) -> Option<AnyDrag> {
         let sphere = match self.drag {
-            GrainDrag::None => 0.0,
-            GrainDrag::Stokes => Stokes.factor(re, porosity),
-            GrainDrag::Dallavalle => Dallavalle.factor(re, porosity),
-            GrainDrag::SchillerNaumann => SchillerNaumann.factor(re, porosity),
+            GrainDrag::None => return None,
+            GrainDrag::Stokes => SphereDrag::Stokes,
+            GrainDrag::Dallavalle => SphereDrag::Dallavalle,
+            GrainDrag::SchillerNaumann => SphereDrag::SchillerNaumann,
+            GrainDrag::CoulsonRichardson => SphereDrag::CoulsonRichardson,
+            GrainDrag::Beetstra => SphereDrag::Beetstra,
+            GrainDrag::BeetstraCello => SphereDrag::BeetstraCello,
         };
-        let neighbours = || DiFelice.factor(re, porosity) / Dallavalle.factor(re, porosity);
         let voidage = match self.voidage {
-            Voidage::None => 1.0,
-            Voidage::DiFelice => neighbours(),
-            Voidage::AlvimLiteral => neighbours() / (porosity * porosity),
+            Voidage::None => AnyVoidage::None,
+            Voidage::DiFelice => AnyVoidage::DiFelice,
+            Voidage::AlvimLiteral => AnyVoidage::AlvimLiteral,
         };
-        6.0 * PI * self.fluid.medium().viscosity * grain.radius * sphere * voidage
+        Some(AnyDrag { sphere, voidage })
     }
 
     /// Speed [m/s] at which a grain falls among others at `porosity` once it no longer gains speed;

@@ -13,7 +13,6 @@ use crate::bed::{self, Attraction, Bed, Grain, Grains, Interaction, Listing, Por
 use crate::cohesion::VanDerWaals;
 use crate::contact::{Body, ContactLaws, Couple};
 use crate::coupling::slices::Measure;
-use crate::drag::{AnyDrag, AnyVoidage, SphereDrag};
 use crate::math::{Random, Vec3};
 use crate::neighbours::Search;
 
@@ -28,7 +27,7 @@ pub fn start(scene: &Sedimentation) -> Result<Bed, Fault> {
         gravity: scene.gravity,
         fluid_density: fluid.density,
         viscosity: fluid.viscosity,
-        drag: drag(scene),
+        drag: scene.drag_law(),
         lift: scene.lift == Lift::Magnus,
     };
     let listing = match scene.detection {
@@ -64,6 +63,7 @@ fn moving_grains(scene: &Sedimentation) -> Result<Vec<Grain>, Fault> {
     let radii: Vec<f64> = bodies.iter().map(|(body, _)| body.radius).collect();
     let positions = match &scene.arrangement {
         Arrangement::Random => arrangement::random(&region, &radii, &mut random),
+        Arrangement::Even => arrangement::even(&region, &radii, &mut random),
         Arrangement::Lattice => arrangement::lattice(&region, &radii, &mut random),
         Arrangement::Packed { solids_fraction } => {
             arrangement::packed(&region, &radii, *solids_fraction, &mut random)
@@ -206,29 +206,18 @@ fn attraction(scene: &Sedimentation) -> Option<Attraction> {
     })
 }
 
-fn drag(scene: &Sedimentation) -> Option<AnyDrag> {
-    let sphere = match scene.drag {
-        GrainDrag::None => return None,
-        GrainDrag::Stokes => SphereDrag::Stokes,
-        GrainDrag::Dallavalle => SphereDrag::Dallavalle,
-        GrainDrag::SchillerNaumann => SphereDrag::SchillerNaumann,
-    };
-    let voidage = match scene.voidage {
-        Voidage::None => AnyVoidage::None,
-        Voidage::DiFelice => AnyVoidage::DiFelice,
-        Voidage::AlvimLiteral => AnyVoidage::AlvimLiteral,
-    };
-    Some(AnyDrag { sphere, voidage })
-}
-
 /// Slices, where anything depends on them.
 fn porosity(scene: &Sedimentation) -> Option<Porosity> {
     let closed = matches!(scene.fluid, StillFluid::Column(_));
     let extremes = scene.extremes();
     let (_, density) = extremes.first()?;
     let mixed = extremes.iter().any(|(_, other)| other != density) && scene.drag != GrainDrag::None;
-    let seen = scene.voidage != Voidage::None && scene.drag != GrainDrag::None;
-    if !(closed || mixed || seen) {
+    let alone = match scene.drag {
+        GrainDrag::None => true,
+        GrainDrag::Beetstra | GrainDrag::BeetstraCello => false,
+        _ => scene.voidage == Voidage::None,
+    };
+    if !(closed || mixed) && alone {
         return None;
     }
     let viscosity = scene.fluid.medium().viscosity;

@@ -1,0 +1,213 @@
+//! What of a suspension cannot be simulated.
+
+use super::model::{SuspendingFluid, Suspension};
+use super::observe::MOST_CLASSES;
+use crate::scene::check::{List, millimetres, particle_fluid, threads_and_snapshots};
+use crate::scene::sedimentation::{class_path, time_step};
+use crate::scene::{Drag, Scheme, SphFluid};
+
+/// Least porosity that grains are spread evenly at [-].
+const LEAST_POROSITY: f64 = 0.6;
+/// Fewest largest diameters across the column: no grain may meet itself.
+const FEWEST_ACROSS: f64 = 3.0;
+/// Departure of the sum of the shares from one [-].
+const ROUNDING: f64 = 1e-6;
+
+pub fn check(scene: &Suspension, list: &mut List) {
+    let mut sound = classes(scene, list);
+    sound &= column(scene, list);
+    sound &= contact(scene, list);
+    sound &= switches(scene, list);
+    sound &= sound && wide_enough(scene, list) && numbers(scene, list);
+    if let (true, SuspendingFluid::Sph(fluid)) = (sound, &scene.fluid) {
+        sound &= particle_fluid(fluid, scene.smallest_diameter(), &scene.column, list);
+        sound &= scheme(fluid, list);
+    }
+    if sound {
+        time_step(&scene.as_sedimentation(), list);
+    }
+}
+
+fn classes(scene: &Suspension, list: &mut List) -> bool {
+    let count = scene.classes.len();
+    if !(1..=MOST_CLASSES).contains(&count) {
+        let message = format!("there are {count} classes, it must be one to {MOST_CLASSES}");
+        list.add(
+            "classes",
+            message,
+            "put together what hardly differs, or leave it out",
+        );
+        return false;
+    }
+    let mut sound = true;
+    for (index, class) in scene.classes.iter().enumerate() {
+        let path = |name: &str| format!("{}.{name}", class_path(count, index));
+        sound &= list.positive(&path("diameter"), class.diameter);
+        sound &= list.positive(&path("density"), class.density);
+        sound &= list.positive(&path("share"), class.share);
+        let fluid = scene.fluid.medium().density;
+        if class.density < fluid {
+            let message = format!(
+                "grains of {} kg/m³ float in a fluid of {fluid} kg/m³",
+                class.density
+            );
+            list.add(
+                &path("density"),
+                message,
+                "make them as heavy as the fluid or heavier",
+            );
+            sound = false;
+        }
+    }
+    let shares: f64 = scene.classes.iter().map(|class| class.share).sum();
+    if sound && (shares - 1.0).abs() > ROUNDING {
+        let message = format!("the shares add up to {shares}, it must be 1");
+        list.add("classes", message, "shares are of the number of all grains");
+        sound = false;
+    }
+    sound
+}
+
+fn column(scene: &Suspension, list: &mut List) -> bool {
+    let model = match scene.fluid {
+        SuspendingFluid::Column(_) => "column",
+        SuspendingFluid::Sph(_) => "sph",
+    };
+    let medium = scene.fluid.medium();
+    let mut sound = list.positive("column.width", scene.column.width);
+    sound &= list.positive("column.height", scene.column.height);
+    sound &= list.positive(&format!("fluid.{model}.density"), medium.density);
+    sound &= list.positive(&format!("fluid.{model}.viscosity"), medium.viscosity);
+    sound &= list.positive("gravity", scene.gravity);
+    // The least porosity itself can be had.
+    let low = LEAST_POROSITY * (1.0 - 1e-12);
+    if !(scene.porosity >= low && scene.porosity < 1.0) {
+        let message = format!(
+            "`porosity` is {}, it must be {LEAST_POROSITY} or above, and below 1",
+            scene.porosity
+        );
+        let help = "denser suspensions are packings: take a `sedimentation` with `arrangement: packed`";
+        list.add("porosity", message, help);
+        sound = false;
+    }
+    sound
+}
+
+fn contact(scene: &Suspension, list: &mut List) -> bool {
+    let contact = &scene.contact;
+    let given = [("stiffness", contact.stiffness), ("friction", contact.friction)];
+    let mut sound = true;
+    for (name, value) in given {
+        if let Some(value) = value {
+            sound &= list.positive(&format!("contact.{name}"), value);
+        }
+    }
+    if !(contact.restitution > 0.0 && contact.restitution <= 1.0) {
+        let message = format!(
+            "`restitution` is {}, it must lie above 0 and be 1 at most",
+            contact.restitution
+        );
+        list.add(
+            "contact.restitution",
+            message,
+            "1 loses nothing, small values nearly all",
+        );
+        sound = false;
+    }
+    sound
+}
+
+fn switches(scene: &Suspension, list: &mut List) -> bool {
+    let mut sound = list.positive("duration", scene.duration);
+    sound &= list.positive("steps_per_contact", scene.steps_per_contact);
+    if let Some(step) = scene.time_step {
+        sound &= list.positive("time_step", step);
+    }
+    sound & threads_and_snapshots(scene.threads, scene.snapshots, list)
+}
+
+fn wide_enough(scene: &Suspension, list: &mut List) -> bool {
+    let largest = scene.largest_diameter();
+    let sides = [
+        ("width", scene.column.width, FEWEST_ACROSS),
+        ("height", scene.column.height, 1.0),
+    ];
+    let mut sound = true;
+    for (name, side, across) in sides {
+        let least = across * largest;
+        if side < least * (1.0 - 1e-9) {
+            let message = format!(
+                "`{name}` {} is below {across} diameters of {}",
+                millimetres(side),
+                millimetres(largest)
+            );
+            let help = format!("make it at least {}, or the grains smaller", millimetres(least));
+            list.add(&format!("column.{name}"), message, &help);
+            sound = false;
+        }
+    }
+    sound
+}
+
+/// Grains there are, and those of them that make the interface.
+fn numbers(scene: &Suspension, list: &mut List) -> bool {
+    let numbers = scene.numbers();
+    let count = scene.grains();
+    if numbers.contains(&0) || count > u64::from(u32::MAX) {
+        let message = format!("the column holds {count} grains, {numbers:?} of the classes");
+        let help =
+            "every class needs a grain, and four billion are the most: change the column or `porosity`";
+        list.add("column", message, help);
+        return false;
+    }
+    let top = scene.top_grains.unwrap_or(1);
+    let holds = (1..=count).contains(&u64::from(top));
+    if !holds {
+        let message = format!("`top_grains` is {top}, the column holds {count} grains");
+        list.add(
+            "top_grains",
+            message,
+            "the interface is the mean of the highest grains",
+        );
+    }
+    holds
+        && match (&scene.fluid, scene.drag) {
+            (SuspendingFluid::Column(_), Drag::BeetstraCello) => sauter(scene, list),
+            _ => true,
+        }
+}
+
+/// A column that is not solved knows no mean size of the grains around a grain.
+fn sauter(scene: &Suspension, list: &mut List) -> bool {
+    let mixed = scene.largest_diameter() > scene.smallest_diameter();
+    if mixed {
+        let message = "`beetstra_cello` among several sizes needs an `sph` fluid".to_owned();
+        let help = "take `fluid: sph`, or a drag law in which the sizes of the neighbours have no say";
+        list.add("drag", message, help);
+    }
+    !mixed
+}
+
+/// What the scene says itself must not be said in the scheme.
+fn scheme(fluid: &SphFluid, list: &mut List) -> bool {
+    let usual = Scheme::for_random_grains();
+    let mut sound = true;
+    let mut refuse = |name: &str, given: bool, help: &str| {
+        if given {
+            let message = format!("the `{name}` of the contacts is that of the scene, not of the fluid");
+            list.add(&format!("fluid.sph.scheme.{name}"), message, help);
+            sound = false;
+        }
+    };
+    refuse(
+        "stiffness",
+        fluid.scheme.stiffness.is_some(),
+        "write `contact: {stiffness: …}`",
+    );
+    refuse(
+        "steps_per_contact",
+        fluid.scheme.steps_per_contact != usual.steps_per_contact,
+        "write `steps_per_contact` beside `contact`",
+    );
+    sound
+}
