@@ -7,12 +7,15 @@ use std::f64::consts::PI;
 use std::time::Instant;
 
 use kynch_sim::contact::LinearSpringDashpot;
-use kynch_sim::coupling::{Basin, Breathing, Exchange, Field, SelfInducedFlow, grain_porosity};
-use kynch_sim::drag::{DiFelice, DragScale};
+use kynch_sim::coupling::{
+    Basin, Breathing, Exchange, ExchangeRules, Field, GrainSize, PorosityRules, PorositySums,
+    SelfInducedFlow, grain_porosity,
+};
+use kynch_sim::drag::DiFelice;
 use kynch_sim::fluid::kernel::Sharpening;
 use kynch_sim::fluid::{Continuity, EquationOfState, FluidParticles, Numerics};
 use kynch_sim::math::Vec3;
-use kynch_sim::simulation::{CouplingRules, GrainPorosity, RigidGrains, Simulation, SlipRule};
+use kynch_sim::simulation::{CouplingRules, GrainPorosity, RigidGrain, RigidGrains, Simulation, SlipRule};
 
 const WIDTH: f64 = 4e-3;
 /// 20 × 20 × 33 particles.
@@ -21,6 +24,10 @@ const SPACING: f64 = 2e-4;
 const DIAMETER: f64 = 1e-4;
 /// Three diameters: exchange length and porosity length alike.
 const LENGTH: f64 = 3e-4;
+const SIZE: GrainSize = GrainSize {
+    diameter: DIAMETER,
+    length: LENGTH,
+};
 const DENSITY: f64 = 1000.0;
 const VISCOSITY: f64 = 0.89e-3;
 const SOUND_SPEED: f64 = 0.94;
@@ -117,6 +124,7 @@ fn suspension() -> Vec<Vec3> {
 /// Grains that fall together through the fluid, coupled as the scenes couple them.
 fn coupled(position: Vec<Vec3>, isolated: bool, refresh_interval: u64) -> Simulation<DiFelice> {
     let volume = PI / 6.0 * DIAMETER.powi(3);
+    let sizes = vec![SIZE; position.len()];
     let fluid = fluid();
     let sharpening = if isolated {
         Sharpening::NONE
@@ -126,7 +134,7 @@ fn coupled(position: Vec<Vec3>, isolated: bool, refresh_interval: u64) -> Simula
     let porosity = if isolated {
         vec![1.0]
     } else {
-        grain_porosity(&position, volume, LENGTH, Sharpening::EDGE_NEUTRAL, WIDTH)
+        grain_porosity(&position, sizes.clone(), PorosityRules::SHARP_LATTICE, WIDTH)
     };
     let basin = Basin {
         width: WIDTH,
@@ -139,11 +147,7 @@ fn coupled(position: Vec<Vec3>, isolated: bool, refresh_interval: u64) -> Simula
     };
     let rules = CouplingRules {
         law: DiFelice,
-        scale: DragScale {
-            diameter: DIAMETER,
-            density: DENSITY,
-            viscosity: VISCOSITY,
-        },
+        fluid: [DENSITY, VISCOSITY],
         slip: if isolated {
             SlipRule::Isolated
         } else {
@@ -151,32 +155,41 @@ fn coupled(position: Vec<Vec3>, isolated: bool, refresh_interval: u64) -> Simula
         },
         porosity: GrainPorosity::Known(porosity),
         intrinsic_stress: false,
-        buoyancy: 1000.0 * volume * 9.81,
+        buoyancy: DENSITY * 9.81,
         two_way: true,
         own_flow: isolated.then(|| SelfInducedFlow::new(&basin, volume)),
         breathing: Some(Breathing::new(SOUND_SPEED, HEIGHT, SPACING)),
-        floor: LinearSpringDashpot::with_restitution(1.0, 1.0),
-        contact_steps: 20.0,
         refresh_interval,
     };
-    let grains = RigidGrains {
+    let grain = |&position: &Vec3| RigidGrain {
         position,
-        velocity: Vec3::zeros(),
         diameter: DIAMETER,
-        volume,
         mass: 2500.0 * volume,
         weight: 1500.0 * volume * 9.81,
-        held: false,
     };
-    let exchange = Exchange::new(LENGTH, sharpening, &fluid, &grains.position);
+    let grains = RigidGrains {
+        grains: position.iter().map(grain).collect(),
+        velocity: Vec3::zeros(),
+        held: false,
+        floor: LinearSpringDashpot::with_restitution(1.0, 1.0),
+        contact_steps: 20.0,
+    };
+    let exchange_rules = ExchangeRules {
+        sharpening,
+        floor_images: !isolated,
+    };
+    let exchange = Exchange::new(sizes, exchange_rules, &fluid, &position);
     Simulation::new(fluid, grains, exchange, rules)
 }
 
 /// Shares of a coupled step, in milliseconds per step.
 fn shares(mut simulation: Simulation<DiFelice>) {
-    let (count, grains) = (simulation.fluid.len(), simulation.grains.position.clone());
-    let volume = simulation.grains.volume;
-    let fields = vec![Field::new(Vec3::repeat(1e-3), Vec3::repeat(1.0), 0.9); count];
+    let count = simulation.fluid.len();
+    let position: Vec<Vec3> = (simulation.grains.grains.iter())
+        .map(|grain| grain.position)
+        .collect();
+    let velocity = vec![Vec3::zeros(); position.len()];
+    let fields = vec![Field::new(Vec3::repeat(1e-3), Vec3::repeat(1.0), 0.9, 1e3); count];
     let mut impulses = vec![[0.0; 4]; count];
     let milliseconds = |name: &str, value: f64| println!("BENCH {name} {:.3} ms/step", 1e3 * value);
     milliseconds(
@@ -190,8 +203,13 @@ fn shares(mut simulation: Simulation<DiFelice>) {
     let exchange = &mut simulation.exchange;
     milliseconds(
         "share_refresh",
-        median(|| seconds(|| exchange.refresh(&simulation.fluid, &grains, volume, Vec3::zeros())))
+        median(|| seconds(|| exchange.refresh(&simulation.fluid, &position, &velocity)))
             / BLOCK_REFRESH as f64,
+    );
+    let mut sums = PorositySums::new(PorosityRules::FREE, vec![SIZE; position.len()], WIDTH);
+    milliseconds(
+        "share_grain_porosity",
+        median(|| seconds(|| sums.refresh(&position))) / BLOCK_REFRESH as f64,
     );
     let mut sum = 0.0;
     let order = exchange.order();

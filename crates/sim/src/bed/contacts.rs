@@ -141,7 +141,7 @@ impl Interaction {
 
     /// From the second centres to the first, the nearest way round periodic sides.
     #[inline(always)]
-    fn between<W: Wide>(&self, a: &[W; 8], b: &[W; 8]) -> Vector<W> {
+    pub(super) fn between<W: Wide>(&self, a: &[W; 8], b: &[W; 8]) -> Vector<W> {
         Vector::new(
             nearest(a[0] - b[0], self.period[0]),
             nearest(a[1] - b[1], self.period[1]),

@@ -6,6 +6,7 @@
 mod attraction;
 mod contacts;
 mod crew;
+mod driven;
 mod grains;
 mod motion;
 mod pairs;
@@ -19,6 +20,7 @@ mod walls;
 
 pub use attraction::{Attraction, Charge};
 pub use contacts::{Interaction, Laws};
+pub use driven::Drive;
 pub use grains::{Grain, Grains};
 pub use motion::Surroundings;
 pub use scheme::Scheme;
@@ -31,6 +33,7 @@ use crate::neighbours::{Record, Search, in_widest};
 
 use contacts::PairSweep;
 use crew::Crew;
+use driven::Driven;
 use motion::{KickAndDrift, Stride};
 use pairs::PairList;
 use sleep::Sleep;
@@ -72,6 +75,12 @@ pub struct Work {
     /// Pairs looked at while lists were made.
     pub looked_at: u64,
     pub lists: u64,
+    /// Grains in the sub-steps of a driven bed, summed over the sub-steps.
+    pub sub_steps: u64,
+    /// Spans that grains of a driven bed flew through without a sub-step.
+    pub flights: u64,
+    /// Spans of a driven bed done again, since a grain went farther than was foreseen.
+    pub repeats: u64,
 }
 
 /// Grains, what acts on them, and where they are.
@@ -92,6 +101,7 @@ pub struct Bed {
     crew: Option<Crew>,
     /// `None` where nobody ever sleeps.
     sleep: Option<Sleep>,
+    driven: Driven,
     /// Way every grain may go before the lists must be renewed [m].
     slack: f64,
     /// Smallest diameter [m].
@@ -125,6 +135,7 @@ impl Bed {
             pairs: PairList::default(),
             crew: None,
             sleep: None,
+            driven: Driven::default(),
             slack: 0.0,
             smallest,
         };
@@ -150,6 +161,7 @@ impl Bed {
     /// # Errors
     /// A grain whose way in one step is longer than half the smallest diameter, or no number.
     pub fn advance(&mut self, steps: u64) -> Result<(), Astray> {
+        self.join_lists();
         let dt = self.interaction.time_step;
         for step in 0..steps {
             if self.sleep.as_ref().is_some_and(|sleep| sleep.all(&self.grains)) {
@@ -229,6 +241,22 @@ impl Bed {
 
     /// Makes the lists of near pairs anew; contacts keep their histories.
     fn renew_lists(&mut self, fastest: f64) {
+        let way = fastest * self.interaction.time_step;
+        let (search, skin) = match self.listing {
+            Listing::EveryStep(search) => (search, NO_SKIN),
+            Listing::Skin(Some(skin)) => (Search::Grid, skin * self.smallest),
+            Listing::Skin(None) => (Search::Grid, self.skin_for(way)),
+        };
+        self.list_within(search, skin);
+    }
+
+    /// Skin of lists that should last while the fastest go so far in a step [m].
+    fn skin_for(&self, way: f64) -> f64 {
+        (2.0 * way * LIST_STEPS).clamp(SKIN[0] * self.smallest, SKIN[1] * self.smallest)
+    }
+
+    /// Lists the pairs whose gaps are under the skin [m] and the reach of what attracts.
+    fn list_within(&mut self, search: Search, skin: f64) {
         let grains = &self.grains;
         let count = grains.len();
         let memories = self
@@ -238,17 +266,6 @@ impl Bed {
         let period = self.interaction.period;
         self.grains.wrap(period);
         self.grains.sort();
-        let (search, skin) = match self.listing {
-            Listing::EveryStep(search) => (search, NO_SKIN),
-            Listing::Skin(Some(skin)) => (Search::Grid, skin * self.smallest),
-            Listing::Skin(None) => {
-                let wanted = 2.0 * fastest * self.interaction.time_step * LIST_STEPS;
-                (
-                    Search::Grid,
-                    wanted.clamp(SKIN[0] * self.smallest, SKIN[1] * self.smallest),
-                )
-            }
-        };
         self.slack = 0.5 * skin;
         let reach = skin
             + self
@@ -266,6 +283,7 @@ impl Bed {
             crew.learn(&self.pairs, grains);
         }
         self.find_border();
+        self.driven.forget();
         self.work.lists += 1;
     }
 

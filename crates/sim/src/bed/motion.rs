@@ -192,7 +192,7 @@ fn eight<W: Wide>(
 
 /// (1 − e^{−x})/x for x ≥ 0, 1 at zero.
 #[inline(always)]
-fn mean_decay<N: Number>(x: N) -> N {
+pub(super) fn mean_decay<N: Number>(x: N) -> N {
     let (one, near) = (N::splat(1.0), N::splat(NEAR));
     // Eight terms reach rounding here, where the closed form loses digits; most steps are as short.
     let mut series = one;

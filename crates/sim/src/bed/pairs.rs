@@ -54,7 +54,7 @@ pub struct PairList {
     /// Pairs in them.
     pub count: usize,
     /// Partners in lanes that are left over: a pair that never touches.
-    filling: [u32; 2],
+    pub filling: [u32; 2],
 }
 
 impl PairList {
@@ -74,18 +74,14 @@ impl PairList {
             }
         }
         near.extend(apart);
-        let packed = |pairs: &[[u32; 2]]| -> Vec<Block> {
-            let lane = |chunk: &[[u32; 2]], end: usize, lane: usize| chunk.get(lane).unwrap_or(&filling)[end];
-            let chunks = pairs.chunks(LANES);
-            chunks
-                .map(|chunk| Block {
-                    members: [0, 1].map(|end| std::array::from_fn(|place| lane(chunk, end, place))),
-                })
-                .collect()
-        };
-        let mut blocks = packed(&near);
+        PairList::in_order(&near, &dormant, filling)
+    }
+
+    /// Blocks of the pairs as they come.
+    fn in_order(near: &[[u32; 2]], dormant: &[[u32; 2]], filling: [u32; 2]) -> Self {
+        let mut blocks = packed(near, filling);
         let active = blocks.len();
-        blocks.extend(packed(&dormant));
+        blocks.extend(packed(dormant, filling));
         PairList {
             histories: vec![History::default(); blocks.len()],
             live: vec![false; blocks.len()],
@@ -123,6 +119,29 @@ impl PairList {
         let own = |places: [u32; 2]| places;
         sorted.recall(own, &self.memories(own, grains.len()));
         sorted
+    }
+
+    /// The same pairs sorted by how they stand; whoever is dormant must remember nothing.
+    pub fn divided(&self, standing: impl Fn([u32; 2]) -> Standing) -> Self {
+        // Where each pair was: its block and lane.
+        let mut parts: [(Vec<[u32; 2]>, Vec<u32>); 3] = Default::default();
+        for (block, lane, pair) in self.pairs() {
+            let (pairs, slots) = &mut parts[standing(pair) as usize];
+            pairs.push(pair);
+            slots.push((block * LANES + lane) as u32);
+        }
+        let [(mut near, mut slots), (apart, far_slots), (dormant, _)] = parts;
+        near.extend(apart);
+        slots.extend(far_slots);
+        let mut list = PairList::in_order(&near, &dormant, self.filling);
+        for (slot, &before) in slots.iter().enumerate() {
+            let (block, lane) = (before as usize / LANES, before as usize % LANES);
+            if self.live[block] {
+                list.histories[slot / LANES].set(slot % LANES, self.histories[block].lane(lane));
+                list.live[slot / LANES] = true;
+            }
+        }
+        list
     }
 
     /// Block, lane and partners of every pair.
@@ -163,6 +182,17 @@ impl PairList {
             }
         }
     }
+}
+
+/// Blocks of the pairs in their order.
+fn packed(pairs: &[[u32; 2]], filling: [u32; 2]) -> Vec<Block> {
+    let lane = |chunk: &[[u32; 2]], end: usize, lane: usize| chunk.get(lane).unwrap_or(&filling)[end];
+    let chunks = pairs.chunks(LANES);
+    chunks
+        .map(|chunk| Block {
+            members: [0, 1].map(|end| std::array::from_fn(|place| lane(chunk, end, place))),
+        })
+        .collect()
 }
 
 /// Displacements of contacts by the names of the partners, of the first over the second.

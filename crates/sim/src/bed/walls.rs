@@ -42,6 +42,11 @@ impl Walls {
         }
     }
 
+    /// Normal and distance from the origin.
+    pub fn record(&self, wall: usize) -> &Record {
+        &self.records[wall]
+    }
+
     /// Height of a grain's lowest point over a wall [m].
     pub fn gap(&self, grains: &Grains, grain: usize, wall: usize) -> f64 {
         let [x, y, z, distance, ..] = self.records[wall].0;
@@ -105,10 +110,12 @@ impl WideWork for WallSweep<'_> {
             blocks,
             histories,
             live,
+            active,
             ..
         } = list;
+        let active = blocks[..*active].iter();
         let (zero, one) = (W::splat(0.0), W::splat(1.0));
-        for ((block, history), live) in blocks.iter().zip(histories).zip(live) {
+        for ((block, history), live) in active.zip(histories).zip(live) {
             let [first, second] = &block.members;
             let wall = W::gather(records, second);
             let a = W::gather(&self.grains.motion, first);

@@ -1,31 +1,34 @@
 //! One list of weights between grains and fluid serves every sum of the coupling.
 //!
-//! A grain samples a field with weights w_ai = V_a W*(r_ai) / Σ_b V_b W*(r_bi), which sum to one
-//! (Shepard 1968), and hands its impulse back with the same weights, so that action equals reaction
-//! to rounding. The porosity of the fluid comes from the plain kernel:
+//! A grain samples a field with weights w_ai = V_a W*(r_ai, h_i) / Σ_b V_b W*(r_bi, h_i), which sum to
+//! one (Shepard 1968), and hands its impulse back with the same weights, so that action equals reaction
+//! to rounding. What the fluid learns of the grains comes from the plain kernel, each grain with its own
+//! exchange length h_i:
 //!
 //! ```text
-//! ε_a = 1 − Σ_i V_i W(r_ai, h_x)
+//! φ_a = Σ_i V_i W(r_ai, h_i),   its flux Σ_i V_i v_i W,   its surface Σ_i (V_i/d_i) W
 //! ```
+
+mod sums;
+
+use std::f64::consts::PI;
 
 use super::Weights;
 use crate::fluid::FluidParticles;
-use crate::fluid::kernel::{Kernel, Sharpening, WendlandC2};
-use crate::math::Vec3;
-#[cfg(target_arch = "x86_64")]
-use crate::neighbours::{Avx2, Avx512};
-use crate::neighbours::{LANES, Plain, Record, Rows, Wide, images};
+use crate::fluid::kernel::Sharpening;
+use crate::math::{Number, Vec3};
+use crate::neighbours::{Record, Rows, images, in_widest};
 
-/// What a grain may sample from a fluid particle: a velocity [m/s], a force density [N/m³] and the
-/// porosity [-]. One cache line.
+/// What a grain may sample from a fluid particle: a velocity [m/s], a force density [N/m³], the porosity
+/// [-] and Σ φ_k/d_k over the grains' sizes [1/m]. One cache line.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C, align(64))]
 pub struct Field(pub [f64; 8]);
 
 impl Field {
-    pub fn new(velocity: Vec3, stress: Vec3, porosity: f64) -> Self {
+    pub fn new(velocity: Vec3, stress: Vec3, porosity: f64, surface: f64) -> Self {
         Field([
-            velocity.x, velocity.y, velocity.z, stress.x, stress.y, stress.z, porosity, 0.0,
+            velocity.x, velocity.y, velocity.z, stress.x, stress.y, stress.z, porosity, surface,
         ])
     }
 
@@ -40,19 +43,76 @@ impl Field {
     pub fn porosity(&self) -> f64 {
         self.0[6]
     }
+
+    pub fn surface(&self) -> f64 {
+        self.0[7]
+    }
 }
 
-/// Share of the support added to the candidate rows.
+/// What the exchange must know of a grain besides where it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GrainSize {
+    /// d [m].
+    pub diameter: f64,
+    /// Exchange length h_x [m]; the support is twice as wide.
+    pub length: f64,
+}
+
+impl GrainSize {
+    /// V [m³].
+    pub fn volume(&self) -> f64 {
+        PI / 6.0 * self.diameter * self.diameter * self.diameter
+    }
+}
+
+/// How the sums are taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExchangeRules {
+    /// Of the weights.
+    pub sharpening: Sharpening,
+    /// Whether grains are mirrored at the floor z = 0 in what the fluid learns of them: a grain next to it
+    /// then gives all its volume to the fluid side, and solids have no flux through it.
+    pub floor_images: bool,
+}
+
+/// What the fluid knows of the grains, by fluid particle.
+#[derive(Clone, Debug, Default)]
+pub struct Solids {
+    /// φ = 1 − ε [-].
+    pub fraction: Vec<f64>,
+    /// Its rate of change along the particle [1/s].
+    pub rate: Vec<f64>,
+    /// Σ V_i v_i W [m/s].
+    pub flux: Vec<Vec3>,
+    /// Σ (V_i/d_i) W [1/m].
+    pub surface: Vec<f64>,
+}
+
+impl Solids {
+    fn read(&mut self, sums: &[Record]) {
+        self.fraction.clear();
+        self.rate.clear();
+        self.flux.clear();
+        self.surface.clear();
+        for Record([fraction, rate, x, y, z, surface, ..]) in sums {
+            self.fraction.push(*fraction);
+            self.rate.push(*rate);
+            self.flux.push(Vec3::new(*x, *y, *z));
+            self.surface.push(*surface);
+        }
+    }
+}
+
+/// Share of the widest support added to the candidate rows.
 const SKIN: f64 = 0.08;
 
 pub struct Exchange {
-    /// Exchange length h_x [m]; the support is twice as wide.
-    pub length: f64,
-    pub sharpening: Sharpening,
-    /// Solids fraction 1 − ε of each fluid particle at the last refresh [-].
-    pub solids: Vec<f64>,
-    /// Its rate of change along the particle [1/s].
-    pub solids_rate: Vec<f64>,
+    pub rules: ExchangeRules,
+    /// Of the last refresh.
+    pub solids: Solids,
+    sizes: Vec<GrainSize>,
+    /// The smallest and the largest [m].
+    diameters: (f64, f64),
     /// Rows of weights and candidates follow this order of the grains, cell by cell, so that
     /// consecutive rows share their fluid particles.
     order: Vec<u32>,
@@ -67,21 +127,31 @@ pub struct Exchange {
     /// The candidate points as the refresh reads them: x, y, z, u_x, u_y, u_z, V. One more without
     /// volume and far away stands behind them for the padding.
     points: Vec<Record>,
-    /// Solids fraction and its rate under way, side by side.
-    sums: Vec<[f64; 2]>,
+    /// Solids under way: φ, its rate, flux in x, y and z, surface.
+    sums: Vec<Record>,
     /// Relative displacement since the candidates were collected is bounded by these anchors.
     fluid_anchor: Vec<Vec3>,
     grain_anchor: Vec<Vec3>,
+    /// Pairs of all refreshes, and how often candidates were collected.
     pub pairs: u64,
+    pub collections: u64,
 }
 
 impl Exchange {
-    pub fn new(length: f64, sharpening: Sharpening, fluid: &FluidParticles, grains: &[Vec3]) -> Self {
+    /// Grains of these sizes at these places [m].
+    pub fn new(
+        sizes: Vec<GrainSize>,
+        rules: ExchangeRules,
+        fluid: &FluidParticles,
+        position: &[Vec3],
+    ) -> Self {
         let mut exchange = Exchange {
-            length,
-            sharpening,
-            solids: vec![0.0; fluid.len()],
-            solids_rate: vec![0.0; fluid.len()],
+            rules,
+            solids: Solids::default(),
+            diameters: sizes.iter().fold((f64::INFINITY, 0.0), |(low, high), size| {
+                (size.diameter.min(low), size.diameter.max(high))
+            }),
+            sizes,
             order: Vec::new(),
             row_of: Vec::new(),
             weights: Weights::default(),
@@ -93,128 +163,76 @@ impl Exchange {
             fluid_anchor: Vec::new(),
             grain_anchor: Vec::new(),
             pairs: 0,
+            collections: 0,
         };
-        exchange.collect(fluid, grains);
+        exchange.collect(fluid, position);
         exchange
     }
 
-    /// Recomputes weights and porosities for grains of `volume` [m³] that move with `velocity` [m/s].
-    pub fn refresh(&mut self, fluid: &FluidParticles, grains: &[Vec3], volume: f64, velocity: Vec3) {
-        if self.outgrown(fluid, grains) {
-            self.collect(fluid, grains);
+    /// Diameter and exchange length of a grain.
+    pub fn size(&self, grain: usize) -> &GrainSize {
+        &self.sizes[grain]
+    }
+
+    /// The smallest and the largest diameter [m].
+    pub fn diameters(&self) -> (f64, f64) {
+        self.diameters
+    }
+
+    /// Recomputes weights and solids for grains at these places [m] with these velocities [m/s].
+    pub fn refresh(&mut self, fluid: &FluidParticles, position: &[Vec3], velocity: &[Vec3]) {
+        if self.outgrown(fluid, position) {
+            self.collect(fluid, position);
         }
-        self.write_points(fluid, velocity);
+        self.write_points(fluid);
         self.weights.clear(self.candidates.len_padded());
         self.sums.clear();
-        self.sums.resize(fluid.len(), [0.0; 2]);
-        self.weigh(grains, volume);
-        for (a, [solids, rate]) in self.sums.iter().enumerate() {
-            self.solids[a] = *solids;
-            self.solids_rate[a] = *rate;
-        }
+        self.sums.resize(fluid.len(), Record::default());
+        let width = fluid.width;
+        in_widest(sums::Weigh {
+            exchange: self,
+            position,
+            velocity,
+            width,
+        });
+        self.solids.read(&self.sums);
         self.pairs += self.weights.members() as u64;
     }
 
-    /// Velocities are written relative to the grains.
-    fn write_points(&mut self, fluid: &FluidParticles, velocity: Vec3) {
+    fn write_points(&mut self, fluid: &FluidParticles) {
         self.points.clear();
-        self.points.extend(self.origins.iter().map(|&(source, shift)| {
+        for &(source, shift) in &self.origins {
             let a = source as usize;
-            let (x, u) = (fluid.position[a] + shift, fluid.velocity[a] - velocity);
-            Record([x.x, x.y, x.z, u.x, u.y, u.z, fluid.volume(a), 0.0])
-        }));
+            let x = unwrapped(&fluid.position[a], &self.fluid_anchor[a], fluid.width) + shift;
+            let u = &fluid.velocity[a];
+            self.points
+                .push(Record([x.x, x.y, x.z, u.x, u.y, u.z, fluid.volume(a), 0.0]));
+        }
         let far = -1e3 * (1.0 + fluid.width);
         self.points.push(Record([far, far, far, 0.0, 0.0, 0.0, 0.0, 0.0]));
     }
 
-    fn weigh(&mut self, grains: &[Vec3], volume: f64) {
-        #[cfg(target_arch = "x86_64")]
-        {
-            if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
-                // SAFETY: the features were just detected.
-                return unsafe { self.weigh_avx512(grains, volume) };
-            }
-            if is_x86_feature_detected!("avx2") {
-                // SAFETY: the feature was just detected.
-                return unsafe { self.weigh_avx2(grains, volume) };
-            }
-        }
-        self.weigh_wide::<Plain>(grains, volume);
+    /// Way [m] beyond the supports that grains and fluid together may go on one collection.
+    fn skin(&self) -> f64 {
+        let widest = self.sizes.iter().map(|size| size.length).fold(0.0, f64::max);
+        SKIN * 2.0 * widest
     }
 
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
-    fn weigh_avx512(&mut self, grains: &[Vec3], volume: f64) {
-        self.weigh_wide::<Avx512>(grains, volume);
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2")]
-    fn weigh_avx2(&mut self, grains: &[Vec3], volume: f64) {
-        self.weigh_wide::<Avx2>(grains, volume);
-    }
-
-    /// Weights and solids of eight candidates at a time. Lanes never mix before the end of a row.
-    #[inline(always)]
-    fn weigh_wide<W: Wide>(&mut self, grains: &[Vec3], volume: f64) {
-        let per_length = 1.0 / self.length;
-        let unit = W::splat(volume * per_length.powi(3));
-        let slope_unit = W::splat(volume * per_length.powi(5));
-        let per_length = W::splat(per_length);
-        for (row, &i) in self.order.iter().enumerate() {
-            let grain = &grains[i as usize];
-            let grain = [W::splat(grain.x), W::splat(grain.y), W::splat(grain.z)];
-            let mut norm = W::splat(0.0);
-            for members in self.candidates.row(row).as_chunks::<LANES>().0 {
-                let fields = W::gather(&self.points, members);
-                let r = [fields[0] - grain[0], fields[1] - grain[1], fields[2] - grain[2]];
-                let approach = r[0] * fields[3] + r[1] * fields[4] + r[2] * fields[5];
-                let q = (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]).sqrt() * per_length;
-                let weight = fields[6] * self.sharpening.value(q);
-                norm = norm + weight;
-                let solids = (unit * WendlandC2.value(q)).lanes();
-                let rate = (slope_unit * WendlandC2.slope(q) * approach).lanes();
-                let (q, weight) = (q.lanes(), weight.lanes());
-                for lane in 0..LANES {
-                    let source = self.source_of[members[lane] as usize];
-                    let sum = &mut self.sums[source as usize];
-                    *sum = [sum[0] + solids[lane], sum[1] + rate[lane]];
-                    self.weights.offer(source, weight[lane], q[lane] < 2.0);
-                }
-            }
-            self.weights.close(norm.total());
-        }
-    }
-
-    fn outgrown(&self, fluid: &FluidParticles, grains: &[Vec3]) -> bool {
-        let allowed = SKIN * 2.0 * self.length;
-        let furthest = |now: &[Vec3], anchor: &[Vec3], wrapped: f64| {
+    fn outgrown(&self, fluid: &FluidParticles, position: &[Vec3]) -> bool {
+        let furthest = |now: &[Vec3], anchor: &[Vec3]| {
             now.iter()
                 .zip(anchor)
-                .map(|(x, x0)| {
-                    let mut r = x - x0;
-                    // A particle that crossed a periodic side has moved by a whole width.
-                    r.x -= wrapped * (r.x / wrapped).round();
-                    r.y -= wrapped * (r.y / wrapped).round();
-                    r.norm_squared()
-                })
+                .map(|(x, x0)| (unwrapped(x, x0, fluid.width) - x0).norm_squared())
                 .fold(0.0, f64::max)
                 .sqrt()
         };
-        let crossed = |now: &[Vec3], anchor: &[Vec3]| {
-            now.iter()
-                .zip(anchor)
-                .any(|(x, x0)| (x.x - x0.x).abs().max((x.y - x0.y).abs()) > 0.5 * fluid.width)
-        };
-        crossed(&fluid.position, &self.fluid_anchor)
-            || furthest(&fluid.position, &self.fluid_anchor, fluid.width)
-                + furthest(grains, &self.grain_anchor, fluid.width)
-                >= allowed
+        furthest(&fluid.position, &self.fluid_anchor) + furthest(position, &self.grain_anchor) >= self.skin()
     }
 
-    fn collect(&mut self, fluid: &FluidParticles, grains: &[Vec3]) {
-        let reach = 2.0 * self.length * (1.0 + SKIN);
-        let images = images(&fluid.position, fluid.width, reach);
+    fn collect(&mut self, fluid: &FluidParticles, position: &[Vec3]) {
+        let skin = self.skin();
+        let widest = self.sizes.iter().map(|size| size.length).fold(0.0, f64::max);
+        let images = images(&fluid.position, fluid.width, 2.0 * widest + skin);
         self.origins = (0..fluid.len() as u32).map(|a| (a, Vec3::zeros())).collect();
         self.origins
             .extend(images.iter().map(|image| (image.source, image.shift)));
@@ -229,15 +247,19 @@ impl Exchange {
             .map(|(source, _)| *source)
             .chain([0])
             .collect();
-        self.order = cell_order(grains, self.length);
-        self.row_of = vec![0; grains.len()];
+        self.order = cell_order(position, widest);
+        self.row_of = vec![0; position.len()];
         for (row, &i) in self.order.iter().enumerate() {
             self.row_of[i as usize] = row as u32;
         }
-        let targets: Vec<Vec3> = self.order.iter().map(|&i| grains[i as usize]).collect();
-        self.candidates = Rows::new(&targets, &points, reach, points.len() as u32);
+        let targets: Vec<Vec3> = self.order.iter().map(|&i| position[i as usize]).collect();
+        let radii: Vec<f64> = (self.order.iter())
+            .map(|&i| 2.0 * self.sizes[i as usize].length + skin)
+            .collect();
+        self.candidates = Rows::within(&targets, &radii, &points, points.len() as u32);
         self.fluid_anchor = fluid.position.clone();
-        self.grain_anchor = grains.to_vec();
+        self.grain_anchor = position.to_vec();
+        self.collections += 1;
     }
 
     /// All grains, cell by cell: visited in this order, neighbouring rows find their fluid particles in
@@ -264,6 +286,17 @@ impl Exchange {
             .map(|(source, share)| share * share / fluid.volume(*source as usize))
             .sum()
     }
+}
+
+/// The copy of a place that has not left its anchor through a periodic side.
+#[inline(always)]
+fn unwrapped(place: &Vec3, anchor: &Vec3, width: f64) -> Vec3 {
+    let whole = |way: f64| width * Number::round(way / width);
+    Vec3::new(
+        place.x - whole(place.x - anchor.x),
+        place.y - whole(place.y - anchor.y),
+        place.z,
+    )
 }
 
 /// Indices of the grains in strips along x of the given width [m], each from end to end.

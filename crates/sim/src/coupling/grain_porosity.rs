@@ -1,72 +1,126 @@
 //! Porosity at the grains, from the grains alone, in one pass.
 //!
 //! ```text
-//! ε_i = 1 − Σ_j V W*(r_ij, h_p), itself included
+//! ε_i = 1 − Σ_j V_j W(r_ij, h_j) + S_0 V_i W(0, h_i),     j = i included in the sum
 //! ```
 //!
-//! In a lattice the grain's own term belongs to the sum like any other (structure factor 0).
+//! The sum at a grain's own centre holds the grain itself, which a sum at any place does so only as often
+//! as grains are found there. Which share of the own term is one too many depends on how the others are
+//! arranged: all of it for a grain alone, none in a lattice, S_0 = (1 − φ)⁴/(1 + 2φ)² in a random
+//! suspension of hard spheres (structure factor at long waves; Percus and Yevick 1958, Phys. Rev. 110, 1).
 
+mod strips;
+
+use strips::{StripSum, Strips};
+
+use super::GrainSize;
 use crate::fluid::kernel::Sharpening;
 use crate::math::Vec3;
-use crate::neighbours::{CellGrid, images};
+use crate::neighbours::in_widest;
 
-/// Porosity [-] of each of equal grains of `volume` [m³], with porosity length h_p [m], in a
-/// column periodic over `width` [m].
-pub fn grain_porosity(
-    grains: &[Vec3],
-    volume: f64,
-    length: f64,
-    sharpening: Sharpening,
-    width: f64,
-) -> Vec<f64> {
-    let reach = 2.0 * length;
-    let mut points = grains.to_vec();
-    points.extend(
-        images(grains, width, reach)
-            .iter()
-            .map(|i| grains[i.source as usize] + i.shift),
-    );
-    let grid = CellGrid::new(&points, reach);
-    let unit = volume / length.powi(3);
-    grains
-        .iter()
-        .map(|grain| {
-            let mut solids = 0.0;
-            grid.visit_near(grain, |j| {
-                let q = (points[j as usize] - grain).norm() / length;
-                if q < 2.0 {
-                    solids += unit * sharpening.value(q);
-                }
-            });
-            1.0 - solids
-        })
-        .collect()
+/// How the neighbours of a grain are arranged: it decides the share S_0 of the own term.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Arrangement {
+    Lattice,
+    Random,
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::f64::consts::PI;
-
-    #[test]
-    fn a_periodic_lattice_has_its_own_porosity_inside() {
-        let (diameter, side) = (1e-4, 12);
-        let volume = PI / 6.0 * diameter * diameter * diameter;
-        let pitch = (volume / 0.1_f64).cbrt();
-        let grains: Vec<Vec3> = (0..side * side * 25)
-            .map(|i| {
-                let (x, y, z) = (i % side, i / side % side, i / side / side);
-                Vec3::new(x as f64 + 0.5, y as f64 + 0.5, z as f64) * pitch
-            })
-            .collect();
-        let inside = side * side * 12;
-        for (sharpening, tolerance) in [(Sharpening::NONE, 3e-3), (Sharpening::EDGE_NEUTRAL, 1e-2)] {
-            let porosity = grain_porosity(&grains, volume, 3.0 * diameter, sharpening, side as f64 * pitch);
-            assert!(
-                (porosity[inside] - 0.9).abs() < 0.1 * tolerance,
-                "{}",
-                porosity[inside]
-            );
+impl Arrangement {
+    /// S_0 [-] where the solids fraction with the own term is φ [-].
+    fn own_share(self, solids: f64) -> f64 {
+        match self {
+            Arrangement::Lattice => 0.0,
+            Arrangement::Random => {
+                let clear = (1.0 - solids).clamp(0.0, 1.0);
+                let crowded = 1.0 + 2.0 * solids.max(0.0);
+                clear * clear * clear * clear / (crowded * crowded)
+            }
         }
     }
 }
+
+/// How the porosity at grains is summed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PorosityRules {
+    pub sharpening: Sharpening,
+    pub arrangement: Arrangement,
+    /// Whether grains are mirrored at the floor z = 0.
+    pub floor_images: bool,
+}
+
+impl PorosityRules {
+    /// Of grains that move freely: plain kernels, a random arrangement, images at the floor.
+    pub const FREE: PorosityRules = PorosityRules {
+        sharpening: Sharpening::NONE,
+        arrangement: Arrangement::Random,
+        floor_images: true,
+    };
+    /// Of a lattice with sharp edges away from the floor.
+    pub const SHARP_LATTICE: PorosityRules = PorosityRules {
+        sharpening: Sharpening::EDGE_NEUTRAL,
+        arrangement: Arrangement::Lattice,
+        floor_images: false,
+    };
+}
+
+/// The porosity at grains of given sizes, again and again.
+#[derive(Clone, Debug)]
+pub struct PorositySums {
+    rules: PorosityRules,
+    /// `length` of a size is the porosity length h_p here.
+    sizes: Vec<GrainSize>,
+    /// Side of the periodic cross-section [m].
+    width: f64,
+    strips: Strips,
+    solids: Vec<f64>,
+    /// Porosity [-] of every grain at the last [`refresh`](Self::refresh).
+    pub porosity: Vec<f64>,
+}
+
+impl PorositySums {
+    /// For grains in a column periodic over `width` [m]; `length` of a size is its porosity length.
+    pub fn new(rules: PorosityRules, sizes: Vec<GrainSize>, width: f64) -> Self {
+        PorositySums {
+            rules,
+            porosity: vec![1.0; sizes.len()],
+            solids: Vec::new(),
+            sizes,
+            width,
+            strips: Strips::default(),
+        }
+    }
+
+    /// Sums anew for grains at these places [m].
+    pub fn refresh(&mut self, position: &[Vec3]) {
+        self.strips
+            .fill(position, &self.sizes, self.width, self.rules.floor_images);
+        self.solids.clear();
+        self.solids.resize(position.len(), 0.0);
+        in_widest(StripSum {
+            strips: &self.strips,
+            sharpening: self.rules.sharpening,
+            solids: &mut self.solids,
+        });
+        for (i, porosity) in self.porosity.iter_mut().enumerate() {
+            let (solids, size) = (self.solids[i], &self.sizes[i]);
+            let own =
+                size.volume() / (size.length * size.length * size.length) * self.rules.sharpening.value(0.0);
+            *porosity = 1.0 - solids + self.rules.arrangement.own_share(solids) * own;
+        }
+    }
+}
+
+/// Porosity [-] once of each of the grains at `position` [m].
+pub fn grain_porosity(
+    position: &[Vec3],
+    sizes: Vec<GrainSize>,
+    rules: PorosityRules,
+    width: f64,
+) -> Vec<f64> {
+    let mut sums = PorositySums::new(rules, sizes, width);
+    sums.refresh(position);
+    sums.porosity
+}
+
+#[cfg(test)]
+mod tests;

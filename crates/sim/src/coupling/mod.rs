@@ -11,8 +11,8 @@ mod weights;
 
 pub use breathing::Breathing;
 pub use disturbance::{Basin, SelfInducedFlow};
-pub use exchange::{Exchange, Field};
-pub use grain_porosity::grain_porosity;
+pub use exchange::{Exchange, ExchangeRules, Field, GrainSize, Solids};
+pub use grain_porosity::{Arrangement, PorosityRules, PorositySums, grain_porosity};
 pub use layers::Layers;
 pub use slices::Slices;
 pub use weights::Weights;

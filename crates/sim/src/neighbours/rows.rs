@@ -50,14 +50,19 @@ impl Rows {
     /// Rows of `targets` among `points` closer than `radius` [m]; the target itself is left out when
     /// it is one of the points (distance zero). Rows are padded with the index `nobody`.
     pub fn new(targets: &[Vec3], points: &[Vec3], radius: f64, nobody: u32) -> Self {
-        let grid = CellGrid::new(points, radius);
+        Rows::within(targets, &vec![radius; targets.len()], points, nobody)
+    }
+
+    /// The same with a radius [m] for each target.
+    pub fn within(targets: &[Vec3], radii: &[f64], points: &[Vec3], nobody: u32) -> Self {
+        let grid = CellGrid::new(points, radii.iter().copied().fold(0.0, f64::max));
         let mut rows = Rows {
             starts: Vec::with_capacity(targets.len() + 1),
             members: Vec::new(),
             pairs: 0,
         };
         rows.starts.push(0);
-        for target in targets {
+        for (target, radius) in targets.iter().zip(radii) {
             let first = rows.members.len();
             grid.visit_near(target, |index| {
                 let distance2 = (points[index as usize] - target).norm_squared();

@@ -1,11 +1,11 @@
 //! Profiles over height at the end of a run.
 
-use crate::drag::DragLaw;
+use crate::drag::PolydisperseLaw;
 use crate::outcome::{Column, Table};
 use crate::simulation::{GrainPorosity, Simulation};
 
 /// Horizontal means of the fluid, one bin per spacing.
-pub fn fluid<L: DragLaw>(simulation: &Simulation<L>) -> Vec<Table> {
+pub fn fluid<L: PolydisperseLaw>(simulation: &Simulation<L>) -> Vec<Table> {
     let fluid = &simulation.fluid;
     let spacing = fluid.numerics.spacing;
     let top = fluid.position.iter().map(|x| x.z).fold(0.0, f64::max);
@@ -57,9 +57,9 @@ pub fn fluid<L: DragLaw>(simulation: &Simulation<L>) -> Vec<Table> {
 }
 
 /// Mean porosity [-] of the fluid particles within a spacing of the middle of the grains.
-pub fn plateau_porosity<L: DragLaw>(simulation: &Simulation<L>) -> f64 {
-    let (fluid, grains) = (&simulation.fluid, &simulation.grains.position);
-    let middle = grains.iter().map(|x| x.z).sum::<f64>() / grains.len() as f64;
+pub fn plateau_porosity<L: PolydisperseLaw>(simulation: &Simulation<L>) -> f64 {
+    let (fluid, grains) = (&simulation.fluid, &simulation.grains.grains);
+    let middle = grains.iter().map(|grain| grain.position.z).sum::<f64>() / grains.len() as f64;
     let near = |a: &usize| (fluid.position[*a].z - middle).abs() < fluid.numerics.spacing;
     let (sum, count) = (0..fluid.len()).filter(near).fold((0.0, 0.0), |(sum, count), a| {
         (sum + fluid.porosity[a], count + 1.0)
@@ -68,14 +68,14 @@ pub fn plateau_porosity<L: DragLaw>(simulation: &Simulation<L>) -> f64 {
 }
 
 /// Means over each horizontal layer of grains: the porosity they see, slip and drag.
-pub fn layers<L: DragLaw>(simulation: &Simulation<L>, layers: usize) -> Vec<Table> {
+pub fn layers<L: PolydisperseLaw>(simulation: &Simulation<L>, layers: usize) -> Vec<Table> {
     let GrainPorosity::Known(porosity) = &simulation.rules.porosity else {
         return Vec::new();
     };
     if layers == 0 {
         return Vec::new();
     }
-    let grains = &simulation.grains.position;
+    let grains = &simulation.grains.grains;
     let per_layer = grains.len() / layers;
     let mean = |values: &[f64]| -> Vec<f64> {
         values
@@ -84,7 +84,7 @@ pub fn layers<L: DragLaw>(simulation: &Simulation<L>, layers: usize) -> Vec<Tabl
             .collect()
     };
     let (slip, drag): (Vec<f64>, Vec<f64>) = (0..grains.len()).map(|i| simulation.slip_and_drag(i)).unzip();
-    let heights = mean(&grains.iter().map(|x| x.z).collect::<Vec<_>>());
+    let heights = mean(&grains.iter().map(|grain| grain.position.z).collect::<Vec<_>>());
     let table = |name, unit, values: &[f64]| Table {
         name,
         columns: vec![

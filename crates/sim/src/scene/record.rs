@@ -2,7 +2,7 @@
 
 use super::SphFluid;
 use super::setup::Settling;
-use crate::drag::DragLaw;
+use crate::drag::PolydisperseLaw;
 use crate::math::Vec3;
 use crate::outcome::{Column, Counters, Outcome, Scalar, Table};
 use crate::simulation::Simulation;
@@ -61,23 +61,23 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    pub fn new<L: DragLaw>(
+    pub fn new<L: PolydisperseLaw>(
         settling: &Settling,
         sph: &SphFluid,
         dt: f64,
         steps: u64,
         simulation: &Simulation<L>,
     ) -> Self {
-        let count = simulation.grains.position.len();
+        let count = simulation.grains.grains.len();
         let sound = simulation.fluid.numerics.state.sound_speed;
         let scalar = |name, unit, value| Scalar { name, unit, value };
+        let buoyancy = settling.mass() * settling.gravity - simulation.grains.weight() / count as f64;
         Recorder {
             every: steps.div_ceil(ROWS),
             tracked: [0, count / 3, 2 * count / 3, count - 1],
             samples: vec![Sample {
-                height: simulation.grains.position[0].z,
-                fluid_acceleration: (settling.mass() * settling.gravity - simulation.grains.weight)
-                    / simulation.grains.mass,
+                height: simulation.grains.grains[0].position.z,
+                fluid_acceleration: buoyancy / settling.mass(),
                 ..Sample::default()
             }],
             window: terminal_window(settling, Some(sound)),
@@ -87,14 +87,14 @@ impl Recorder {
             exchanged: 0.0,
             spurious: 0.0,
             relaxation: settling.relaxation_time(),
-            buoyancy: settling.mass() * settling.gravity - simulation.grains.weight,
+            buoyancy,
             isolated: settling.sphere.is_some(),
             block_layers: settling.block.map_or(0, |block| block.layers as usize),
             scalars: vec![
                 scalar("sound_speed", "m/s", sound),
                 scalar("time_step", "s", dt),
                 scalar("smoothing_length", "m", simulation.fluid.numerics.smoothing()),
-                scalar("exchange_length", "m", simulation.exchange.length),
+                scalar("exchange_length", "m", simulation.exchange.size(0).length),
                 scalar("fluid_particles", "1", simulation.fluid.len() as f64),
                 scalar("grains", "1", count as f64),
                 scalar("porosity", "1", settling.porosity()),
@@ -108,7 +108,7 @@ impl Recorder {
     }
 
     /// Before a step: the momentum to compare with, on audited steps.
-    pub fn before<L: DragLaw>(&mut self, simulation: &Simulation<L>, step: u64, dt: f64) {
+    pub fn before<L: PolydisperseLaw>(&mut self, simulation: &Simulation<L>, step: u64, dt: f64) {
         self.auditing = step.is_multiple_of(AUDIT_INTERVAL);
         if self.auditing {
             self.momentum_before = simulation.momentum(dt);
@@ -116,14 +116,11 @@ impl Recorder {
     }
 
     /// After a step: audit and sample.
-    pub fn after<L: DragLaw>(&mut self, simulation: &Simulation<L>, step: u64, dt: f64) {
+    pub fn after<L: PolydisperseLaw>(&mut self, simulation: &Simulation<L>, step: u64, dt: f64) {
         self.exchanged = self.exchanged.max(simulation.report.impulse);
         if self.auditing {
-            let outside = simulation.external_force() + simulation.fluid.wall_force();
-            let residual = simulation.momentum(dt)
-                - self.momentum_before
-                - outside * dt
-                - simulation.numerical_and_contact_impulse();
+            let outside = simulation.external_impulse(dt) + simulation.fluid.wall_force() * dt;
+            let residual = simulation.momentum(dt) - self.momentum_before - outside;
             self.residual = self.residual.max(residual.norm());
             let fastest = simulation
                 .fluid
@@ -143,7 +140,7 @@ impl Recorder {
         self.residual / self.exchanged.max(f64::MIN_POSITIVE)
     }
 
-    fn sample<L: DragLaw>(&self, simulation: &Simulation<L>) -> Sample {
+    fn sample<L: PolydisperseLaw>(&self, simulation: &Simulation<L>) -> Sample {
         let report = &simulation.report;
         Sample {
             time: simulation.time,
@@ -151,10 +148,11 @@ impl Recorder {
             slip: report.slip,
             drag: report.drag,
             stress: report.stress,
-            fluid_acceleration: (report.drag + report.stress + self.buoyancy) / simulation.grains.mass,
+            fluid_acceleration: (report.drag + report.stress + self.buoyancy)
+                / simulation.grains.grains[0].mass,
             disturbance: report.sampled,
             own_flow: report.own_flow,
-            height: simulation.grains.position[0].z,
+            height: simulation.grains.grains[0].position.z,
             tracked_slip: self.tracked.map(|i| simulation.slip_and_drag(i).0),
             tracked_drag: self.tracked.map(|i| simulation.slip_and_drag(i).1),
             momentum_error: self.momentum_error(),
@@ -162,7 +160,7 @@ impl Recorder {
     }
 
     /// Everything watched, as an outcome.
-    pub fn finish<L: DragLaw>(mut self, simulation: &Simulation<L>) -> Outcome {
+    pub fn finish<L: PolydisperseLaw>(mut self, simulation: &Simulation<L>) -> Outcome {
         let error = self.momentum_error();
         let mut push = |name, unit, value| self.scalars.push(Scalar { name, unit, value });
         let times: Vec<f64> = self.samples.iter().map(|sample| sample.time).collect();
@@ -254,7 +252,7 @@ impl Recorder {
     }
 }
 
-fn counters<L: DragLaw>(simulation: &Simulation<L>) -> Counters {
+fn counters<L: PolydisperseLaw>(simulation: &Simulation<L>) -> Counters {
     Counters {
         steps: simulation.steps,
         grain_steps: simulation.grain_steps,

@@ -7,13 +7,15 @@ use super::{
     Start, StressDensity,
 };
 use crate::contact::LinearSpringDashpot;
-use crate::coupling::{Basin, Breathing, Exchange, SelfInducedFlow, grain_porosity};
-use crate::drag::DragLaw;
+use crate::coupling::{
+    Basin, Breathing, Exchange, ExchangeRules, GrainSize, PorosityRules, SelfInducedFlow, grain_porosity,
+};
+use crate::drag::PolydisperseLaw;
 use crate::fluid::kernel::Sharpening;
 use crate::fluid::{Continuity, EquationOfState, FluidParticles, Numerics};
 use crate::math::Vec3;
 use crate::outcome::{Control, Failure, FailureKind, Outcome};
-use crate::simulation::{CouplingRules, GrainPorosity, RigidGrains, Simulation, SlipRule};
+use crate::simulation::{CouplingRules, GrainPorosity, RigidGrain, RigidGrains, Simulation, SlipRule};
 
 /// χ of the bulk viscosity that damps compression; the step's limit counts on it.
 const BULK_DAMPING: f64 = 0.1;
@@ -23,7 +25,7 @@ const OVERLAP_LIMIT: f64 = 0.05;
 const RELAXATION_STEPS: u64 = 1000;
 
 /// Runs a scene with a particle fluid under one drag law.
-pub fn run<L: DragLaw>(
+pub fn run<L: PolydisperseLaw>(
     settling: &Settling,
     sph: &SphFluid,
     law: L,
@@ -57,7 +59,7 @@ pub fn run<L: DragLaw>(
     Ok(recorder.finish(&simulation))
 }
 
-fn failure<L: DragLaw>(
+fn failure<L: PolydisperseLaw>(
     kind: FailureKind,
     reason: String,
     recorder: Recorder,
@@ -71,7 +73,7 @@ fn failure<L: DragLaw>(
 }
 
 /// Why the state can no longer be trusted, if so.
-fn divergence<L: DragLaw>(simulation: &Simulation<L>, height: f64) -> Option<String> {
+fn divergence<L: PolydisperseLaw>(simulation: &Simulation<L>, height: f64) -> Option<String> {
     let when = format!("at t = {:.6e} s (step {})", simulation.time, simulation.steps);
     let fluid = &simulation.fluid;
     if let Some(a) = (0..fluid.len()).find(|&a| !(fluid.velocity[a].norm() + fluid.pressure[a]).is_finite()) {
@@ -91,7 +93,7 @@ fn divergence<L: DragLaw>(simulation: &Simulation<L>, height: f64) -> Option<Str
             100.0 * OVERLAP_LIMIT
         ));
     }
-    if let Some(i) = simulation.grains.position.iter().position(|x| x.z > height) {
+    if let Some(i) = (simulation.grains.grains.iter()).position(|grain| grain.position.z > height) {
         return Some(format!("grain {i} left the fluid through its surface {when}"));
     }
     simulation.energy_excess().map(|(energy, bound)| {
@@ -107,7 +109,7 @@ fn divergence<L: DragLaw>(simulation: &Simulation<L>, height: f64) -> Option<Str
 }
 
 /// Builds fluid, grains and coupling in their starting state.
-pub fn assemble<L: DragLaw>(settling: &Settling, sph: &SphFluid, law: L) -> Simulation<L> {
+pub fn assemble<L: PolydisperseLaw>(settling: &Settling, sph: &SphFluid, law: L) -> Simulation<L> {
     let scheme = &sph.scheme;
     let fluid_weight = match scheme.hydrostatics {
         Hydrostatics::Split => 0.0,
@@ -116,33 +118,46 @@ pub fn assemble<L: DragLaw>(settling: &Settling, sph: &SphFluid, law: L) -> Simu
     let numerics = numerics(settling, sph, fluid_weight);
     let mut fluid = FluidParticles::lattice(numerics, settling.column.width, settling.column.height);
     let position = settling.positions();
-    let volume = settling.volume();
-    let weight = match scheme.hydrostatics {
-        Hydrostatics::Split => settling.excess_weight(),
-        Hydrostatics::Carried => settling.mass() * settling.gravity,
-    };
-    let grains = RigidGrains {
-        position,
-        velocity: Vec3::zeros(),
-        diameter: settling.grains.diameter,
-        volume,
-        mass: settling.mass(),
-        weight,
-        held: settling.block.is_some_and(|block| block.held),
-    };
-    let mut exchange = exchange(settling, sph, &fluid, &grains);
+    let grains = rigid_grains(settling, sph, &position);
+    let mut exchange = exchange(settling, sph, &fluid, &position);
     if scheme.start == Start::Exact {
-        exchange.refresh(&fluid, &grains.position, volume, Vec3::zeros());
-        let porosity: Vec<f64> = exchange.solids.iter().map(|solids| 1.0 - solids).collect();
-        let profile = carried_pressure(settling, &fluid, &exchange.solids, grains.held);
+        exchange.refresh(&fluid, &position, &vec![Vec3::zeros(); position.len()]);
+        let solids = &exchange.solids.fraction;
+        let porosity: Vec<f64> = solids.iter().map(|solids| 1.0 - solids).collect();
+        let profile = carried_pressure(settling, &fluid, solids, grains.held);
         let density = numerics.state.density;
         let height = settling.column.height;
         fluid.prepare(&porosity, |x| {
             profile(x.z) + density * fluid_weight * (height - x.z)
         });
     }
-    let rules = rules(settling, sph, law, &grains, &fluid);
+    let rules = rules(settling, sph, law, &position, &fluid);
     Simulation::new(fluid, grains, exchange, rules)
+}
+
+fn rigid_grains(settling: &Settling, sph: &SphFluid, position: &[Vec3]) -> RigidGrains {
+    let scheme = &sph.scheme;
+    let weight = match scheme.hydrostatics {
+        Hydrostatics::Split => settling.excess_weight(),
+        Hydrostatics::Carried => settling.mass() * settling.gravity,
+    };
+    let (diameter, mass) = (settling.grains.diameter, settling.mass());
+    let speed = settling.expected_speed();
+    let stiffness = (scheme.stiffness)
+        .unwrap_or_else(|| LinearSpringDashpot::stiffness_for_overlap(mass, speed, 0.003 * diameter));
+    let grain = |&position: &Vec3| RigidGrain {
+        position,
+        diameter,
+        mass,
+        weight,
+    };
+    RigidGrains {
+        grains: position.iter().map(grain).collect(),
+        velocity: Vec3::zeros(),
+        held: settling.block.is_some_and(|block| block.held),
+        floor: LinearSpringDashpot::with_restitution(stiffness, 1.0),
+        contact_steps: scheme.steps_per_contact,
+    }
 }
 
 fn numerics(settling: &Settling, sph: &SphFluid, gravity: f64) -> Numerics {
@@ -178,26 +193,37 @@ fn numerics(settling: &Settling, sph: &SphFluid, gravity: f64) -> Numerics {
     }
 }
 
-fn exchange(settling: &Settling, sph: &SphFluid, fluid: &FluidParticles, grains: &RigidGrains) -> Exchange {
-    let sharpening = exchange_sharpening(settling, sph);
-    match sph.scheme.porosity {
-        PorosityPath::OnePass => {
-            Exchange::new(settling.exchange_length(sph), sharpening, fluid, &grains.position)
-        }
-        PorosityPath::TwoPass => Exchange::new(
-            fluid.numerics.smoothing(),
-            Sharpening::NONE,
-            fluid,
-            &grains.position,
-        ),
-    }
+fn exchange(settling: &Settling, sph: &SphFluid, fluid: &FluidParticles, position: &[Vec3]) -> Exchange {
+    let (length, sharpening) = match sph.scheme.porosity {
+        PorosityPath::OnePass => (settling.exchange_length(sph), exchange_sharpening(settling, sph)),
+        PorosityPath::TwoPass => (fluid.numerics.smoothing(), Sharpening::NONE),
+    };
+    exchange_of(settling, length, sharpening, fluid, position)
 }
 
-fn rules<L: DragLaw>(
+fn exchange_of(
+    settling: &Settling,
+    length: f64,
+    sharpening: Sharpening,
+    fluid: &FluidParticles,
+    position: &[Vec3],
+) -> Exchange {
+    let size = GrainSize {
+        diameter: settling.grains.diameter,
+        length,
+    };
+    let rules = ExchangeRules {
+        sharpening,
+        floor_images: false,
+    };
+    Exchange::new(vec![size; position.len()], rules, fluid, position)
+}
+
+fn rules<L: PolydisperseLaw>(
     settling: &Settling,
     sph: &SphFluid,
     law: L,
-    grains: &RigidGrains,
+    position: &[Vec3],
     fluid: &FluidParticles,
 ) -> CouplingRules<L> {
     let scheme = &sph.scheme;
@@ -205,16 +231,7 @@ fn rules<L: DragLaw>(
     let porosity = match scheme.porosity {
         PorosityPath::TwoPass => GrainPorosity::Sampled,
         PorosityPath::OnePass if isolated => GrainPorosity::Known(vec![1.0]),
-        PorosityPath::OnePass => GrainPorosity::Known(grain_porosity(
-            &grains.position,
-            grains.volume,
-            POROSITY_LENGTH * grains.diameter,
-            match scheme.sharpening {
-                SharpeningChoice::Conservative => Sharpening::EDGE_NEUTRAL,
-                SharpeningChoice::None => Sharpening::NONE,
-            },
-            settling.column.width,
-        )),
+        PorosityPath::OnePass => GrainPorosity::Known(lattice_porosity(settling, sph, position)),
     };
     let slip = match (scheme.slip, scheme.porosity, isolated) {
         (Slip::Interstitial, _, _) => SlipRule::Interstitial,
@@ -225,16 +242,17 @@ fn rules<L: DragLaw>(
     let corrected = settling.sphere.is_some_and(|sphere| {
         sphere.self_disturbance == SelfDisturbance::Corrected && sphere.coupling == Coupling::TwoWay
     });
-    let speed = settling.expected_speed();
-    let stiffness = scheme.stiffness.unwrap_or_else(|| {
-        LinearSpringDashpot::stiffness_for_overlap(settling.mass(), speed, 0.003 * settling.grains.diameter)
-    });
+    let medium = settling.medium();
+    let buoyancy = match scheme.hydrostatics {
+        Hydrostatics::Split => medium.density * settling.gravity,
+        Hydrostatics::Carried => 0.0,
+    };
     CouplingRules {
         law,
-        scale: settling.scale(),
+        fluid: [medium.density, medium.viscosity],
         slip,
         porosity,
-        buoyancy: settling.mass() * settling.gravity - grains.weight,
+        buoyancy,
         intrinsic_stress: scheme.stress_density == StressDensity::Intrinsic,
         two_way: settling
             .sphere
@@ -247,10 +265,24 @@ fn rules<L: DragLaw>(
                 fluid.numerics.spacing,
             )
         }),
-        floor: LinearSpringDashpot::with_restitution(stiffness, 1.0),
-        contact_steps: scheme.steps_per_contact,
         refresh_interval: if isolated { 1 } else { 8 },
     }
+}
+
+/// Porosity of every grain of a block.
+fn lattice_porosity(settling: &Settling, sph: &SphFluid, position: &[Vec3]) -> Vec<f64> {
+    let size = GrainSize {
+        diameter: settling.grains.diameter,
+        length: POROSITY_LENGTH * settling.grains.diameter,
+    };
+    let rules = PorosityRules {
+        sharpening: match sph.scheme.sharpening {
+            SharpeningChoice::Conservative => Sharpening::EDGE_NEUTRAL,
+            SharpeningChoice::None => Sharpening::NONE,
+        },
+        ..PorosityRules::SHARP_LATTICE
+    };
+    grain_porosity(position, vec![size; position.len()], rules, settling.column.width)
 }
 
 /// Length [m] of the continuous kernel that hands out and samples back as much as the exchange kernel does
@@ -266,8 +298,8 @@ fn resolved_length(settling: &Settling, sph: &SphFluid, fluid: &FluidParticles) 
     let echo = |phase: usize| {
         let fallen = Vec3::new(0.0, 0.0, phase as f64 / PHASES as f64 * fluid.numerics.spacing);
         let grain = [start - fallen];
-        let mut exchange = Exchange::new(length, sharpening, fluid, &grain);
-        exchange.refresh(fluid, &grain, settling.volume(), Vec3::zeros());
+        let mut exchange = exchange_of(settling, length, sharpening, fluid, &grain);
+        exchange.refresh(fluid, &grain, &[Vec3::zeros()]);
         exchange.echo(0, fluid)
     };
     let mean = (0..PHASES).map(echo).sum::<f64>() / PHASES as f64;
@@ -331,7 +363,7 @@ fn carried_pressure(
 }
 
 /// The published start: a lattice without pressure is damped while the grains are held.
-fn relax<L: DragLaw>(simulation: &mut Simulation<L>, dt: f64) {
+fn relax<L: PolydisperseLaw>(simulation: &mut Simulation<L>, dt: f64) {
     let held = std::mem::replace(&mut simulation.grains.held, true);
     for _ in 0..RELAXATION_STEPS {
         simulation.step(dt);

@@ -1,24 +1,31 @@
-//! A rigid set of grains settles through a column of particle fluid.
+//! Grains settle through a column of particle fluid.
 //!
-//! One grain is the smallest rigid set; a block is a lattice whose grains share the mean force. Each
-//! fluid step: kick and drift, refresh the coupling, sum the rates, exchange momentum, kick. The
-//! exchange sees velocities at the full step, extrapolated with the last reaction, so a steady state is
-//! free of the step's length.
+//! What the grains are is their own matter ([`GrainSet`]): a rigid set, whose smallest is a single grain,
+//! or free ones. Each fluid step: kick and drift, refresh the coupling, sum the rates, exchange momentum,
+//! kick. The exchange sees velocities at the full step, extrapolated with the last reaction, so a steady
+//! state is free of the step's length.
 
 mod audit;
+mod drag;
+mod grains;
 mod momentum;
+mod rigid;
 mod rules;
 
-use momentum::GrainForce;
-pub use rules::{CouplingRules, GrainPorosity, RigidGrains, SlipRule, StepReport};
+pub use grains::{FluidForce, GrainSet, Motion};
+pub use rigid::{RigidGrain, RigidGrains};
+pub use rules::{CouplingRules, GrainPorosity, SlipRule, StepReport};
 
 use crate::coupling::{Exchange, Field};
-use crate::drag::DragLaw;
+use crate::drag::PolydisperseLaw;
 use crate::fluid::FluidParticles;
+use crate::math::Vec3;
 
-pub struct Simulation<L> {
+use drag::DragState;
+
+pub struct Simulation<L, G = RigidGrains> {
     pub fluid: FluidParticles,
-    pub grains: RigidGrains,
+    pub grains: G,
     pub exchange: Exchange,
     pub rules: CouplingRules<L>,
     pub time: f64,
@@ -26,28 +33,33 @@ pub struct Simulation<L> {
     pub grain_steps: u64,
     pub report: StepReport,
     pub porosity_clips: u64,
-    /// Elastic energy of the fluid at the start [J] and where the first grain started [m].
+    /// Elastic energy of the fluid and potential energy of the grains at the start [J].
     start_energy: f64,
-    start_height: f64,
+    start_potential: f64,
     since_refresh: f64,
     steps_since_refresh: u64,
+    /// Mean velocity of the grains at the last refresh [m/s].
+    refreshed_velocity: Vec3,
+    /// Places and velocities of the grains for a refresh [m, m/s].
+    position: Vec<Vec3>,
+    velocity: Vec<Vec3>,
     fields: Vec<Field>,
-    forces: Vec<GrainForce>,
-    impulses: Vec<[f64; 4]>,
+    states: Vec<DragState>,
+    coefficients: Vec<f64>,
+    forces: Vec<FluidForce>,
+    /// What each grain got of the fluid in the last step [N s], and how long that was [s].
+    impulses: Vec<Vec3>,
+    exchanged_over: f64,
+    reactions: Vec<[f64; 4]>,
 }
 
 /// Porosity below which the drag law is not asked.
 const POROSITY_FLOOR: f64 = 0.3;
 
-impl<L: DragLaw> Simulation<L> {
+impl<L: PolydisperseLaw, G: GrainSet> Simulation<L, G> {
     /// Couples grains and fluid; the fluid keeps its state, its porosity is set from the grains.
-    pub fn new(
-        fluid: FluidParticles,
-        grains: RigidGrains,
-        exchange: Exchange,
-        rules: CouplingRules<L>,
-    ) -> Self {
-        let count = fluid.len();
+    pub fn new(fluid: FluidParticles, grains: G, exchange: Exchange, rules: CouplingRules<L>) -> Self {
+        let (count, particles) = (grains.len(), fluid.len());
         let mut simulation = Simulation {
             fluid,
             grains,
@@ -59,29 +71,34 @@ impl<L: DragLaw> Simulation<L> {
             report: StepReport::default(),
             porosity_clips: 0,
             start_energy: 0.0,
-            start_height: 0.0,
+            start_potential: 0.0,
             since_refresh: 0.0,
             steps_since_refresh: 0,
-            fields: vec![Field::default(); count],
-            forces: Vec::new(),
-            impulses: vec![[0.0; 4]; count],
+            refreshed_velocity: Vec3::zeros(),
+            position: Vec::new(),
+            velocity: Vec::new(),
+            fields: vec![Field::default(); particles],
+            states: vec![DragState::default(); count],
+            coefficients: vec![0.0; count],
+            forces: vec![FluidForce::default(); count],
+            impulses: vec![Vec3::zeros(); count],
+            exchanged_over: 0.0,
+            reactions: vec![[0.0; 4]; particles],
         };
-        simulation.refresh_weights();
+        simulation.refresh_weights(0.0);
         simulation.carry_porosity();
         simulation.fluid.sum_rates(0.0);
         simulation.start_energy = simulation.fluid.elastic_energy();
-        simulation.start_height = simulation.grains.position[0].z;
+        simulation.start_potential = simulation.grains.potential_energy();
         simulation
     }
 
     /// One fluid step of `dt` [s].
     pub fn step(&mut self, dt: f64) {
         if self.fluid_rests() {
-            self.drift_grains(dt);
             self.exchange_momentum(dt);
         } else {
             self.fluid.kick_and_drift(dt);
-            self.drift_grains(dt);
             self.refresh_coupling(dt);
             self.fluid.sum_rates(0.5 * dt);
             self.exchange_momentum(dt);
@@ -97,47 +114,59 @@ impl<L: DragLaw> Simulation<L> {
         !self.rules.two_way && self.fluid.numerics.gravity == 0.0
     }
 
-    fn drift_grains(&mut self, dt: f64) {
-        let (width, shift) = (self.fluid.width, self.grains.velocity * dt);
-        for x in &mut self.grains.position {
-            *x += shift;
-            x.x = x.x.rem_euclid(width);
-            x.y = x.y.rem_euclid(width);
-        }
-    }
-
     fn refresh_coupling(&mut self, dt: f64) {
         self.since_refresh += dt;
         self.steps_since_refresh += 1;
         if self.steps_since_refresh >= self.rules.refresh_interval {
-            self.refresh_weights();
+            self.refresh_weights(dt);
         }
         self.carry_porosity();
     }
 
-    fn refresh_weights(&mut self) {
-        self.exchange.refresh(
-            &self.fluid,
-            &self.grains.position,
-            self.grains.volume,
-            self.grains.velocity,
-        );
+    /// Weights and solids for the grains `ahead` [s] from now, if nothing pushes them meanwhile.
+    fn refresh_weights(&mut self, ahead: f64) {
+        let (grains, width) = (&self.grains, self.fluid.width);
+        let wrapped = |x: Vec3| Vec3::new(x.x.rem_euclid(width), x.y.rem_euclid(width), x.z);
+        let places = (0..grains.len()).map(|i| wrapped(grains.position(i) + grains.velocity(i) * ahead));
+        self.position.clear();
+        self.position.extend(places);
+        self.velocity.clear();
+        self.velocity
+            .extend((0..grains.len()).map(|i| grains.velocity(i)));
+        self.exchange.refresh(&self.fluid, &self.position, &self.velocity);
+        if let GrainPorosity::OnePass(sums) = &mut self.rules.porosity {
+            sums.refresh(&self.position);
+        }
+        self.refreshed_velocity = self.mean_velocity();
         self.since_refresh = 0.0;
         self.steps_since_refresh = 0;
     }
 
-    /// Porosity of the fluid now: the last refreshed one moved on by its rate.
+    /// Mean velocity of the grains [m/s].
+    fn mean_velocity(&self) -> Vec3 {
+        let count = self.grains.len();
+        (0..count).map(|i| self.grains.velocity(i)).sum::<Vec3>() / count as f64
+    }
+
+    /// Porosity of the fluid now: the last refreshed one moved on by its rate. The solids keep their
+    /// velocities but for what all of them have gained since.
     fn carry_porosity(&mut self) {
         if !self.rules.two_way {
             return;
         }
+        let gained = self.mean_velocity() - self.refreshed_velocity;
+        let solids = &self.exchange.solids;
         for a in 0..self.fluid.len() {
-            let solids = self.exchange.solids[a] + self.since_refresh * self.exchange.solids_rate[a];
-            let porosity = 1.0 - solids;
+            let fraction = solids.fraction[a];
+            let porosity = 1.0 - (fraction + self.since_refresh * solids.rate[a]);
             self.porosity_clips += (porosity < POROSITY_FLOOR) as u64;
             let porosity = porosity.clamp(POROSITY_FLOOR, 1.0);
             self.fluid.set_porosity(a, porosity);
-            self.fluid.solid_flux[a] = (1.0 - porosity) * self.grains.velocity;
+            self.fluid.solid_flux[a] = if fraction > 0.0 {
+                (1.0 - porosity) * (solids.flux[a] / fraction + gained)
+            } else {
+                Vec3::zeros()
+            };
         }
     }
 

@@ -1,26 +1,7 @@
 //! What a simulation is made of and how its parts are coupled.
 
-use crate::contact::LinearSpringDashpot;
-use crate::coupling::{Breathing, SelfInducedFlow};
-use crate::drag::DragScale;
+use crate::coupling::{Breathing, PorositySums, SelfInducedFlow};
 use crate::math::Vec3;
-
-/// Grains that move as one.
-#[derive(Clone, Debug)]
-pub struct RigidGrains {
-    pub position: Vec<Vec3>,
-    /// Common velocity [m/s].
-    pub velocity: Vec3,
-    pub diameter: f64,
-    /// Volume of one grain [m³].
-    pub volume: f64,
-    /// Mass of one grain [kg].
-    pub mass: f64,
-    /// Weight less buoyancy of one grain, or full weight where the fluid carries its whole pressure [N].
-    pub weight: f64,
-    /// Held in place: feels the fluid and pushes it, but does not move.
-    pub held: bool,
-}
 
 /// Which velocity and porosity enter the drag law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,26 +24,26 @@ pub enum GrainPorosity {
     Known(Vec<f64>),
     /// Sampled from the fluid.
     Sampled,
+    /// From the grains alone, summed anew with every refresh of the weights.
+    OnePass(PorositySums),
 }
 
 /// How the coupling is done.
 pub struct CouplingRules<L> {
     pub law: L,
-    pub scale: DragScale,
+    /// Density [kg/m³] and viscosity [Pa s] of the fluid.
+    pub fluid: [f64; 2],
     pub slip: SlipRule,
     pub porosity: GrainPorosity,
     /// ϱ in place of ρ = ε ϱ in the stress on a grain: a published defect.
     pub intrinsic_stress: bool,
-    /// Buoyancy of one grain that is carried analytically [N].
+    /// Buoyancy per volume of grain that is carried analytically [N/m³].
     pub buoyancy: f64,
     /// Whether the fluid feels the grains.
     pub two_way: bool,
     pub own_flow: Option<SelfInducedFlow>,
     /// Damper of compression waves through the whole column.
     pub breathing: Option<Breathing>,
-    pub floor: LinearSpringDashpot,
-    /// Grain steps per contact time [-].
-    pub contact_steps: f64,
     /// Fluid steps between refreshes of the weights.
     pub refresh_interval: u64,
 }
@@ -80,12 +61,10 @@ pub struct StepReport {
     pub sampled: f64,
     /// Own flow taken out of it, downward positive [m/s].
     pub own_flow: f64,
-    /// Largest overlap with the floor over the diameter [-].
+    /// Largest overlap of a contact over the diameter so far [-].
     pub overlap: f64,
     /// Impulse handed to the fluid in this step [N s].
     pub impulse: f64,
-    /// Impulse of the floor on the grains in this step [N s].
-    pub floor_impulse: f64,
-    /// Mean velocity of the grains over the step [m/s].
-    pub mean_velocity: Vec3,
+    /// Impulse of all but the fluid on the grains in this step [N s].
+    pub outside: Vec3,
 }

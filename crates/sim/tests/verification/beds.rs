@@ -1,6 +1,7 @@
 //! Beds of grains: what must hold of them whatever they do.
 
 mod conservation;
+mod driven;
 mod extremes;
 mod fluid;
 mod friction;

@@ -1,12 +1,12 @@
 //! A coupled column put together by hand, for grains that stand where no scene puts them.
 
 use kynch_sim::contact::LinearSpringDashpot;
-use kynch_sim::coupling::{Exchange, grain_porosity};
-use kynch_sim::drag::{DiFelice, DragScale};
+use kynch_sim::coupling::{Exchange, ExchangeRules, GrainSize, PorosityRules, grain_porosity};
+use kynch_sim::drag::DiFelice;
 use kynch_sim::fluid::kernel::Sharpening;
 use kynch_sim::fluid::{Continuity, EquationOfState, FluidParticles, Numerics};
 use kynch_sim::math::Vec3;
-use kynch_sim::simulation::{CouplingRules, GrainPorosity, RigidGrains, Simulation, SlipRule};
+use kynch_sim::simulation::{CouplingRules, GrainPorosity, RigidGrain, RigidGrains, Simulation, SlipRule};
 
 use crate::scenes::{GLASS, GRAVITY, WATER, volume};
 
@@ -50,41 +50,47 @@ pub fn fallen_speed(position: Vec<Vec3>, steps: usize) -> f64 {
         HEIGHT,
     );
     let volume = volume(&GLASS);
+    let size = |length: f64| GrainSize {
+        diameter: GLASS.diameter,
+        length,
+    };
     let porosity = grain_porosity(
         &position,
-        volume,
-        3.0 * GLASS.diameter,
-        Sharpening::EDGE_NEUTRAL,
+        vec![size(3.0 * GLASS.diameter); position.len()],
+        PorosityRules::SHARP_LATTICE,
         WIDTH,
     );
     let rules = CouplingRules {
         law: DiFelice,
-        scale: DragScale {
-            diameter: GLASS.diameter,
-            density: WATER.density,
-            viscosity: WATER.viscosity,
-        },
+        fluid: [WATER.density, WATER.viscosity],
         slip: SlipRule::MixtureFlux,
         porosity: GrainPorosity::Known(porosity),
         intrinsic_stress: false,
-        buoyancy: WATER.density * volume * GRAVITY,
+        buoyancy: WATER.density * GRAVITY,
         two_way: true,
         own_flow: None,
         breathing: None,
-        floor: LinearSpringDashpot::with_restitution(1.0, 1.0),
-        contact_steps: 20.0,
         refresh_interval: 8,
     };
-    let grains = RigidGrains {
+    let grain = |&position: &Vec3| RigidGrain {
         position,
-        velocity: Vec3::zeros(),
         diameter: GLASS.diameter,
-        volume,
         mass: GLASS.density * volume,
         weight: (GLASS.density - WATER.density) * volume * GRAVITY,
-        held: false,
     };
-    let exchange = Exchange::new(LENGTH, Sharpening::SECOND_ORDER, &fluid, &grains.position);
+    let grains = RigidGrains {
+        grains: position.iter().map(grain).collect(),
+        velocity: Vec3::zeros(),
+        held: false,
+        floor: LinearSpringDashpot::with_restitution(1.0, 1.0),
+        contact_steps: 20.0,
+    };
+    let exchange_rules = ExchangeRules {
+        sharpening: Sharpening::SECOND_ORDER,
+        floor_images: false,
+    };
+    let sizes = vec![size(LENGTH); position.len()];
+    let exchange = Exchange::new(sizes, exchange_rules, &fluid, &position);
     let mut simulation = Simulation::new(fluid, grains, exchange, rules);
     (0..steps).for_each(|_| simulation.step(1e-4));
     -simulation.grains.velocity.z

@@ -102,3 +102,62 @@ fn grains_of_middling_density_see_each_other_as_a_fluid_does() {
     let behind = pair_correlation(&region, &positions, 1.2, 1.3);
     assert!(behind > 1.0 && behind < 1.6, "{behind}");
 }
+
+/// Structure factor at the longest sideways waves: |Σ exp(i k·x)|²/N, 1 if grains did not see each other.
+fn scatter(region: &Region, positions: &[Vec3]) -> f64 {
+    let waves = [
+        [1.0, 0.0],
+        [0.0, 1.0],
+        [1.0, 1.0],
+        [1.0, -1.0],
+        [2.0, 0.0],
+        [0.0, 2.0],
+    ];
+    let power = |[a, b]: [f64; 2]| {
+        let phase = |place: &Vec3| 2.0 * PI * (a * place.x + b * place.y) / region.width;
+        let real: f64 = positions.iter().map(|place| phase(place).cos()).sum();
+        let imaginary: f64 = positions.iter().map(|place| phase(place).sin()).sum();
+        real * real + imaginary * imaginary
+    };
+    waves.into_iter().map(power).sum::<f64>() / (waves.len() * positions.len()) as f64
+}
+
+#[test]
+fn an_even_arrangement_has_no_long_waves_and_neither_has_any_part_of_its_list() {
+    let radii = vec![0.5; 4096];
+    let region = cube(side(Dimensions::Three, &radii, 0.1), true);
+    let random = random(&region, &radii, &mut Random::new(1)).unwrap();
+    let even = even(&region, &radii, &mut Random::new(1)).unwrap();
+    assert_sound(&region, &radii, &even);
+    // Hard spheres at a tenth: (1 − φ)⁴/(1 + 2φ)² = 0.46.
+    let (random, whole) = (scatter(&region, &random), scatter(&region, &even));
+    let (first, last) = (scatter(&region, &even[..2048]), scatter(&region, &even[2048..]));
+    println!("{random} {whole} {first} {last}");
+    assert!((0.15..1.5).contains(&random), "{random}");
+    assert!(whole < 0.1, "{whole}");
+    // Placed at random half of them would scatter with (1 + 0.46)/2.
+    assert!(first < 0.1 && last < 0.1, "{first} {last}");
+}
+
+#[test]
+fn an_even_arrangement_fills_the_box_up_to_its_floor_and_lid() {
+    let radii = vec![0.5; 4000];
+    for fraction in [0.02, 0.1, 0.4] {
+        let region = cube(side(Dimensions::Three, &radii, fraction), true);
+        let even = even(&region, &radii, &mut Random::new(2)).unwrap();
+        assert_sound(&region, &radii, &even);
+        let within = |low: f64, high: f64| {
+            let spheres = even.iter().map(|place| (place.z, 0.5));
+            crate::coupling::slices::solid_volume_between(spheres, low, high)
+                / (region.width * region.depth * (high - low))
+        };
+        let height = region.height;
+        for (low, high) in [(0.0, 0.25), (0.25, 0.5), (0.5, 0.75), (0.75, 1.0)] {
+            let found = within(low * height, high * height);
+            assert!(
+                (found / fraction - 1.0).abs() < 0.03,
+                "{found} for {fraction} from {low}"
+            );
+        }
+    }
+}

@@ -8,6 +8,10 @@
 //! contacts with Mindlin friction, damping time 20 µs, Stokes drag, six rigid walls. A settled bed first
 //! runs the same steps untimed, since its contacts begin without history. Without a file a loose lattice is
 //! dropped. The time is that of the processor, where the system tells it.
+//!
+//! With `--driven` the beds of `driven.rs` run instead.
+
+mod driven;
 
 use std::time::Instant;
 
@@ -26,6 +30,9 @@ const VISCOSITY: f64 = 1e-3;
 const STEP: f64 = 1e-5;
 
 fn main() {
+    if std::env::args().any(|argument| argument == "--driven") {
+        return driven::main();
+    }
     let arguments: Vec<String> = std::env::args()
         .skip(1)
         .filter(|argument| argument != "--bench")
