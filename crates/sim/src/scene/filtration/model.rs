@@ -104,7 +104,11 @@ pub struct Crossflow {
 /// Which grains belong to the cake.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Deposited {
-    /// Those that have settled: slow, hardly moved, and carried by a chain of contacts to the medium.
+    /// Those slower than a tenth of the terminal speed that a chain of contacts among their like carries.
+    /// A growing cake gives way, slowly.
+    Slow,
+    /// Those that have settled as in a sedimentation: slower than a hundredth of the terminal speed,
+    /// hardly moved in 10 ms, and carried by a chain of contacts among their like.
     Settled,
     /// All that a chain of contacts carries.
     Carried,

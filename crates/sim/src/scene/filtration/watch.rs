@@ -14,6 +14,8 @@ use crate::scene::sedimentation::fate::{Signs, diverged};
 use crate::scene::sedimentation::observe::{Measures, Settled};
 use crate::scene::sedimentation::step::Limits;
 
+/// Speed of a slow grain over the terminal speed [-].
+const SLOW: f64 = 0.1;
 /// Rows over which a settled grain has not moved.
 const WINDOW: usize = 2;
 
@@ -190,6 +192,10 @@ impl<'a> Watch<'a> {
         }
         let settled = match self.scene.deposited {
             Deposited::Carried => Settled::carried(&self.bed, |_| true),
+            Deposited::Slow => {
+                let limit = SLOW * self.speed;
+                Settled::carried(&self.bed, |grain| grains.velocity(grain).norm() < limit)
+            }
             Deposited::Settled => {
                 let before = (self.places.len() == WINDOW).then(|| {
                     let own = self.names.iter().map(|name| self.places[0][*name as usize]);
