@@ -2,8 +2,8 @@
 //! structural check of a file follows.
 
 pub mod collision;
-pub mod filtration;
 pub mod derived;
+pub mod filtration;
 pub mod quantity;
 pub mod scene;
 pub mod sedimentation;
