@@ -16,8 +16,6 @@ mod encounters;
 mod flight;
 mod sub_steps;
 
-use std::f64::consts::PI;
-
 use crate::math::Vec3;
 use crate::neighbours::{LANES, Record, Search, in_widest};
 
@@ -35,6 +33,8 @@ use sub_steps::KickSome;
 /// Gap over the smallest diameter up to which pairs are sub-stepped although they cannot meet by
 /// themselves: one that is hit may still reach the other.
 const FLOOR: f64 = 0.005;
+/// The same of pairs whose both grains are sub-stepped anyway.
+const CROWD: f64 = 0.02;
 /// Spans after which pairs that were sub-stepped are looked at again.
 const SPANS: u32 = 8;
 /// How much farther than needed lists reach when grains went too far for them [-].
@@ -59,8 +59,11 @@ pub(super) struct Driven {
     /// c_x, c_y, c_z [m/s²], λ [1/s], impulse of the contacts [N s], sum of the changes of velocity
     /// [m/s].
     launches: Vec<Record>,
-    /// x, y, z [m], bound on the change of velocity [m/s], v_x, v_y, v_z [m/s].
+    /// x, y, z [m], bound on the change of velocity [m/s], v_x, v_y, v_z [m/s], speed that weight and
+    /// buoyancy give [m/s].
     flights: Vec<Record>,
+    /// Greatest of the bounds on the change of velocity [m/s].
+    change: f64,
     /// Whether a grain is sub-stepped.
     busy: Vec<bool>,
     /// Places of those, in eights.
@@ -202,40 +205,30 @@ impl Bed {
         }
     }
 
-    /// Acceleration by weight and buoyancy [m/s²], upwards.
-    fn own(&self, grain: usize) -> f64 {
-        let Record([_, _, _, radius, .., inverse_mass]) = self.grains.motion[grain];
-        let displaced = 4.0 / 3.0 * PI * self.surroundings.fluid_density * radius * radius * radius;
-        self.surroundings.gravity * (displaced * inverse_mass - 1.0)
-    }
-
     fn fly(&mut self, drives: &[Drive], span: &Span) -> Result<f64, Astray> {
-        let mut driven = std::mem::take(&mut self.driven);
+        let Driven {
+            launches, flights, ..
+        } = &mut self.driven;
         let grains = &self.grains;
-        driven.launches.resize(grains.motion.len(), Record::default());
-        driven.flights.resize(grains.motion.len(), Record::default());
-        for (grain, launch) in driven.launches[..grains.moving].iter_mut().enumerate() {
-            let drive = &drives[grains.number[grain] as usize];
-            let inverse_mass = grains.motion[grain].0[7];
-            let rate = drive.drag * inverse_mass;
-            let push = drive.force * inverse_mass + drive.flow * rate;
-            let own = self.own(grain);
-            *launch = Record([push.x, push.y, push.z + own, rate, 0.0, 0.0, 0.0, 0.0]);
-        }
-        let fastest = in_widest(Flights {
+        launches.resize(grains.motion.len(), Record::default());
+        flights.resize(grains.motion.len(), Record::default());
+        let [fastest, change] = in_widest(Flights {
+            surroundings: &self.surroundings,
             motion: &grains.motion,
-            launches: &driven.launches,
-            flights: &mut driven.flights[..grains.moving],
+            number: &grains.number,
+            drives,
+            launches: &mut launches[..grains.moving],
+            flights: &mut flights[..grains.moving],
             span: span.time,
         });
-        self.driven = driven;
+        self.driven.change = change;
         if fastest.is_finite() {
             return Ok(fastest);
         }
         let flights = &self.driven.flights[..self.grains.moving];
         let lost = flights
             .iter()
-            .position(|flight| !flight.0[..7].iter().all(|x| x.is_finite()));
+            .position(|flight| !flight.0.iter().all(|x| x.is_finite()));
         Err(self.astray_flight(lost.unwrap_or(0)))
     }
 
@@ -268,21 +261,11 @@ impl Bed {
 
     /// Whether somebody may meet in a pair that is not sub-stepped.
     fn somebody_meets_outside(&mut self, span: &Span) -> bool {
-        let mut found = std::mem::take(&mut self.driven.suspects);
-        found.clear();
-        let change = self.driven.flights[..self.grains.moving]
-            .iter()
-            .map(|flight| flight.0[3])
-            .fold(0.0, f64::max);
-        let blocks = &self.pairs.blocks[self.pairs.active..];
-        let encounters = self.encounters(&self.interaction, span, 0.0);
-        in_widest(Suspects {
-            encounters,
-            change,
-            blocks,
-            found: &mut found,
-        });
+        let active = self.pairs.active;
+        let found = self.suspects(span, 0.0, active);
+        let blocks = &self.pairs.blocks;
         let nobody = self.pairs.filling[0];
+        let encounters = self.encounters(&self.interaction, span, 0.0);
         let among_grains = found.iter().any(|&block| {
             let mut pairs = pairs_in(&blocks[block as usize], nobody);
             pairs.any(|pair| encounters.standing(pair) != Standing::Dormant)
@@ -297,29 +280,74 @@ impl Bed {
         meets
     }
 
+    /// Blocks from `first` on in which somebody may meet, or comes nearer than `floor` [m].
+    fn suspects(&mut self, span: &Span, floor: f64, first: usize) -> Vec<u32> {
+        let mut found = std::mem::take(&mut self.driven.suspects);
+        found.clear();
+        in_widest(Suspects {
+            encounters: self.encounters(&self.interaction, span, floor),
+            change: self.driven.change,
+            blocks: &self.pairs.blocks,
+            first,
+            found: &mut found,
+        });
+        found
+    }
+
+    /// How all pairs stand, in their order.
+    fn standing_within(&mut self, span: &Span, floor: f64) -> Vec<Standing> {
+        let found = self.suspects(span, floor, 0);
+        let encounters = self.encounters(&self.interaction, span, floor);
+        let mut suspects = found.iter().peekable();
+        let mut standing = Vec::with_capacity(LANES * self.pairs.blocks.len());
+        for (place, block) in self.pairs.blocks.iter().enumerate() {
+            let suspect = suspects.next_if(|found| **found as usize == place).is_some();
+            standing.extend(pairs_in(block, self.pairs.filling[0]).map(|pair| {
+                if suspect {
+                    encounters.standing(pair)
+                } else {
+                    Standing::Dormant
+                }
+            }));
+        }
+        self.driven.suspects = found;
+        standing
+    }
+
     /// Divides the lists into pairs that may meet and others, and finds who is to be sub-stepped.
     fn divide(&mut self, span: &Span) {
+        let mut standing = self.standing_within(span, FLOOR * self.smallest);
         let encounters = self.encounters(&self.interaction, span, FLOOR * self.smallest);
-        let pairs = self.pairs.divided(|pair| encounters.standing(pair));
-        let walls = self
-            .walls
-            .list
-            .divided(|pair| encounters.standing_at_wall(&self.walls, pair));
-        (self.pairs, self.walls.list) = (pairs, walls);
+        let pairs = self.walls.list.pairs();
+        let at_walls: Vec<Standing> = pairs
+            .map(|(.., pair)| encounters.standing_at_wall(&self.walls, pair))
+            .collect();
+        let mut busy = std::mem::take(&mut self.driven.busy);
+        busy.clear();
+        busy.resize(self.grains.motion.len(), false);
+        let mut settle = |pair: [u32; 2], standing: &Standing, ends: usize| {
+            for &member in pair[..ends].iter().filter(|_| *standing != Standing::Dormant) {
+                busy[member as usize] = true;
+            }
+        };
+        for ((.., pair), standing) in self.pairs.pairs().zip(&standing) {
+            settle(pair, standing, 2);
+        }
+        for ((.., pair), standing) in self.walls.list.pairs().zip(&at_walls) {
+            settle(pair, standing, 1);
+        }
+        // Among those who are sub-stepped anyway more pairs cost little and are seldom overlooked.
+        let encounters = self.encounters(&self.interaction, span, CROWD * self.smallest);
+        for ((.., pair), standing) in self.pairs.pairs().zip(&mut standing) {
+            if *standing == Standing::Dormant && pair.iter().all(|end| busy[*end as usize]) {
+                *standing = encounters.standing(pair);
+            }
+        }
+        self.pairs = self.pairs.divided(&standing);
+        self.walls.list = self.walls.list.divided(&at_walls);
+        self.driven.busy = busy;
         let (moving, nobody) = (self.grains.moving, self.grains.len() as u32);
         let driven = &mut self.driven;
-        driven.busy.clear();
-        driven.busy.resize(self.grains.motion.len(), false);
-        for block in &self.pairs.blocks[..self.pairs.active] {
-            for member in block.members.as_flattened() {
-                driven.busy[*member as usize] = true;
-            }
-        }
-        for block in &self.walls.list.blocks[..self.walls.list.active] {
-            for member in block.members[0] {
-                driven.busy[member as usize] = true;
-            }
-        }
         let some: Vec<u32> = (0..moving as u32)
             .filter(|grain| driven.busy[*grain as usize])
             .collect();
@@ -340,7 +368,8 @@ impl Bed {
         }
         self.driven.divided = false;
         self.pairs = self.pairs.sorted_anew(&self.grains, self.interaction.period);
-        self.walls.list = self.walls.list.divided(|_| Standing::Apart);
+        let near = vec![Standing::Apart; self.walls.list.pairs().count()];
+        self.walls.list = self.walls.list.divided(&near);
         if let Some(crew) = &mut self.crew {
             crew.learn(&self.pairs, &self.grains);
         }
@@ -427,6 +456,7 @@ impl Bed {
             launches: &mut self.driven.launches,
             some: &self.driven.some,
             stride: Stride { kick, drift, limit },
+            turn: self.interaction.laws.turn(),
         });
         if fastest.is_finite() {
             Ok(fastest)
@@ -461,6 +491,7 @@ impl Bed {
             some,
             launches,
             flights,
+            change,
             ..
         } = &mut self.driven;
         let mut farther = false;
@@ -468,6 +499,7 @@ impl Bed {
             let (bound, changed) = (&mut flights[place as usize].0[3], launches[place as usize].0[7]);
             if changed > *bound * (1.0 + ROUNDING) {
                 (*bound, farther) = (changed, true);
+                *change = change.max(changed);
             }
         }
         if !farther {
@@ -505,7 +537,7 @@ impl Bed {
             let [_, _, _, _, x, y, z, _] = state[0].0;
             let gain = self.grains.velocity(grain) - Vec3::new(x, y, z);
             let [_, _, _, _, sx, sy, sz, _] = self.driven.launches[grain].0;
-            let given = self.given(grain, span, gain) - Vec3::new(sx, sy, sz);
+            let given = self.given(grain, gain) - Vec3::new(sx, sy, sz);
             impulses[self.grains.number[grain] as usize] = given;
         }
         for grain in (0..moving).filter(|grain| !self.driven.busy[*grain]) {
@@ -515,7 +547,7 @@ impl Bed {
             if !(velocity.norm_squared().max(before.norm_squared()) < span.limit * span.limit) {
                 return Err(self.astray_flight(grain));
             }
-            impulses[self.grains.number[grain] as usize] = self.given(grain, span, velocity - before);
+            impulses[self.grains.number[grain] as usize] = self.given(grain, velocity - before);
             let motion = &mut self.grains.motion[grain].0;
             (motion[0], motion[1], motion[2]) = (x, y, z);
             (motion[4], motion[5], motion[6]) = (vx, vy, vz);
@@ -530,7 +562,8 @@ impl Bed {
     }
 
     /// What everything but weight and buoyancy gave a grain that gained a velocity [N s].
-    fn given(&self, grain: usize, span: &Span, gain: Vec3) -> Vec3 {
-        (gain - Vec3::new(0.0, 0.0, self.own(grain) * span.time)) * self.grains.mass(grain)
+    fn given(&self, grain: usize, gain: Vec3) -> Vec3 {
+        let own = self.driven.flights[grain].0[7];
+        Vec3::new(gain.x, gain.y, gain.z - own) * self.grains.mass(grain)
     }
 }
