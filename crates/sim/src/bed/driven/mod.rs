@@ -12,31 +12,23 @@
 //! did is held against the bounds; a span in which somebody went farther is taken back and done again
 //! with more of them sub-stepped, so that no contact is missed.
 
+mod attempt;
 mod encounters;
 mod flight;
+mod lists;
 mod sub_steps;
+#[cfg(test)]
+mod tests;
 
 use crate::math::Vec3;
-use crate::neighbours::{LANES, Record, Search, in_widest};
+use crate::neighbours::{LANES, Record, in_widest};
 
-use super::contacts::{Interaction, PairSweep};
-use super::motion::Stride;
-use super::pairs::{History, Standing};
 use super::sleep::Sleep;
-use super::walls::WallSweep;
-use super::{Astray, Bed, Listing};
+use super::{Astray, Bed};
 
-use encounters::{Encounters, Suspects, pairs_in};
+use attempt::Start;
 use flight::Flights;
-use sub_steps::KickSome;
 
-/// Gap over the smallest diameter up to which pairs are sub-stepped although they cannot meet by
-/// themselves: one that is hit may still reach the other.
-const FLOOR: f64 = 0.005;
-/// The same of pairs whose both grains are sub-stepped anyway.
-const CROWD: f64 = 0.02;
-/// Spans after which pairs that were sub-stepped are looked at again.
-const SPANS: u32 = 8;
 /// How much farther than needed lists reach when grains went too far for them [-].
 const SPARE: f64 = 1.5;
 /// Share by which steps and bounds may be exceeded by rounding [-].
@@ -77,15 +69,6 @@ pub(super) struct Driven {
     divided: bool,
     /// Spans since they were.
     age: u32,
-}
-
-/// How the busy ones were before the span.
-#[derive(Clone, Debug, Default)]
-struct Start {
-    /// Motion, spin and forces in the order of `some`.
-    states: Vec<[Record; 3]>,
-    pairs: (Vec<History>, Vec<bool>),
-    walls: (Vec<History>, Vec<bool>),
 }
 
 impl Driven {
@@ -173,6 +156,9 @@ impl Bed {
             .iter_mut()
             .for_each(|spin| spin.0[7] = 1.0);
         self.pairs = self.pairs.sorted_anew(&self.grains, self.interaction.period);
+        if let Some(crew) = &mut self.crew {
+            crew.learn(&self.pairs, &self.grains);
+        }
         self.forces.fill(Record::default());
         self.sum_forces(0.0);
     }
@@ -185,24 +171,6 @@ impl Bed {
         }
         self.widen_lists(fastest * span.time);
         self.fly(drives, span)
-    }
-
-    /// Makes lists that hold while grains go so far [m], and for longer if they may.
-    fn widen_lists(&mut self, way: f64) {
-        let (search, wanted) = match self.listing {
-            Listing::EveryStep(search) => (search, 0.0),
-            Listing::Skin(Some(skin)) => (Search::Grid, skin * self.smallest),
-            Listing::Skin(None) => (Search::Grid, self.skin_for(way)),
-        };
-        // Forces stay with their grains.
-        let mut forces = vec![Record::default(); self.grains.len()];
-        for (number, force) in self.grains.number.iter().zip(&self.forces) {
-            forces[*number as usize] = *force;
-        }
-        self.list_within(search, wanted.max(2.0 * (1.0 + ROUNDING) * way));
-        for (number, force) in self.grains.number.iter().zip(&mut self.forces) {
-            *force = forces[*number as usize];
-        }
     }
 
     fn fly(&mut self, drives: &[Drive], span: &Span) -> Result<f64, Astray> {
@@ -241,285 +209,6 @@ impl Bed {
         }
     }
 
-    fn encounters<'a>(&'a self, interaction: &'a Interaction, span: &Span, floor: f64) -> Encounters<'a> {
-        Encounters {
-            interaction,
-            motion: &self.grains.motion,
-            flights: &self.driven.flights,
-            span: span.time,
-            floor,
-        }
-    }
-
-    /// Divides the lists anew where somebody outside may meet, or when it is time.
-    fn foresee(&mut self, span: &Span) {
-        self.driven.age += 1;
-        if !self.driven.divided || self.driven.age >= SPANS || self.somebody_meets_outside(span) {
-            self.divide(span);
-        }
-    }
-
-    /// Whether somebody may meet in a pair that is not sub-stepped.
-    fn somebody_meets_outside(&mut self, span: &Span) -> bool {
-        let active = self.pairs.active;
-        let found = self.suspects(span, 0.0, active);
-        let blocks = &self.pairs.blocks;
-        let nobody = self.pairs.filling[0];
-        let encounters = self.encounters(&self.interaction, span, 0.0);
-        let among_grains = found.iter().any(|&block| {
-            let mut pairs = pairs_in(&blocks[block as usize], nobody);
-            pairs.any(|pair| encounters.standing(pair) != Standing::Dormant)
-        });
-        let list = &self.walls.list;
-        let mut at_walls = list.blocks[list.active..]
-            .iter()
-            .flat_map(|block| pairs_in(block, nobody));
-        let meets = |pair: [u32; 2]| encounters.standing_at_wall(&self.walls, pair) != Standing::Dormant;
-        let meets = among_grains || at_walls.any(meets);
-        self.driven.suspects = found;
-        meets
-    }
-
-    /// Blocks from `first` on in which somebody may meet, or comes nearer than `floor` [m].
-    fn suspects(&mut self, span: &Span, floor: f64, first: usize) -> Vec<u32> {
-        let mut found = std::mem::take(&mut self.driven.suspects);
-        found.clear();
-        in_widest(Suspects {
-            encounters: self.encounters(&self.interaction, span, floor),
-            change: self.driven.change,
-            blocks: &self.pairs.blocks,
-            first,
-            found: &mut found,
-        });
-        found
-    }
-
-    /// How all pairs stand, in their order.
-    fn standing_within(&mut self, span: &Span, floor: f64) -> Vec<Standing> {
-        let found = self.suspects(span, floor, 0);
-        let encounters = self.encounters(&self.interaction, span, floor);
-        let mut suspects = found.iter().peekable();
-        let mut standing = Vec::with_capacity(LANES * self.pairs.blocks.len());
-        for (place, block) in self.pairs.blocks.iter().enumerate() {
-            let suspect = suspects.next_if(|found| **found as usize == place).is_some();
-            standing.extend(pairs_in(block, self.pairs.filling[0]).map(|pair| {
-                if suspect {
-                    encounters.standing(pair)
-                } else {
-                    Standing::Dormant
-                }
-            }));
-        }
-        self.driven.suspects = found;
-        standing
-    }
-
-    /// Divides the lists into pairs that may meet and others, and finds who is to be sub-stepped.
-    fn divide(&mut self, span: &Span) {
-        let mut standing = self.standing_within(span, FLOOR * self.smallest);
-        let encounters = self.encounters(&self.interaction, span, FLOOR * self.smallest);
-        let pairs = self.walls.list.pairs();
-        let at_walls: Vec<Standing> = pairs
-            .map(|(.., pair)| encounters.standing_at_wall(&self.walls, pair))
-            .collect();
-        let mut busy = std::mem::take(&mut self.driven.busy);
-        busy.clear();
-        busy.resize(self.grains.motion.len(), false);
-        let mut settle = |pair: [u32; 2], standing: &Standing, ends: usize| {
-            for &member in pair[..ends].iter().filter(|_| *standing != Standing::Dormant) {
-                busy[member as usize] = true;
-            }
-        };
-        for ((.., pair), standing) in self.pairs.pairs().zip(&standing) {
-            settle(pair, standing, 2);
-        }
-        for ((.., pair), standing) in self.walls.list.pairs().zip(&at_walls) {
-            settle(pair, standing, 1);
-        }
-        // Among those who are sub-stepped anyway more pairs cost little and are seldom overlooked.
-        let encounters = self.encounters(&self.interaction, span, CROWD * self.smallest);
-        for ((.., pair), standing) in self.pairs.pairs().zip(&mut standing) {
-            if *standing == Standing::Dormant && pair.iter().all(|end| busy[*end as usize]) {
-                *standing = encounters.standing(pair);
-            }
-        }
-        self.pairs = self.pairs.divided(&standing);
-        self.walls.list = self.walls.list.divided(&at_walls);
-        self.driven.busy = busy;
-        let (moving, nobody) = (self.grains.moving, self.grains.len() as u32);
-        let driven = &mut self.driven;
-        let some: Vec<u32> = (0..moving as u32)
-            .filter(|grain| driven.busy[*grain as usize])
-            .collect();
-        driven.count = some.len();
-        driven.some.clear();
-        driven.some.extend(some.chunks(LANES).map(|chunk| {
-            let mut places = [nobody; LANES];
-            places[..chunk.len()].copy_from_slice(chunk);
-            places
-        }));
-        (driven.divided, driven.age) = (true, 0);
-    }
-
-    /// Makes the lists whole again.
-    pub(super) fn join_lists(&mut self) {
-        if !self.driven.divided {
-            return;
-        }
-        self.driven.divided = false;
-        self.pairs = self.pairs.sorted_anew(&self.grains, self.interaction.period);
-        let near = vec![Standing::Apart; self.walls.list.pairs().count()];
-        self.walls.list = self.walls.list.divided(&near);
-        if let Some(crew) = &mut self.crew {
-            crew.learn(&self.pairs, &self.grains);
-        }
-    }
-
-    fn keep_start(&mut self) {
-        let Driven { some, start, .. } = &mut self.driven;
-        start.states.clear();
-        for &place in some.as_flattened() {
-            let place = place as usize;
-            start.states.push([
-                self.grains.motion[place],
-                self.grains.spin[place],
-                self.forces[place],
-            ]);
-        }
-        let lists = [
-            (&mut start.pairs, &self.pairs),
-            (&mut start.walls, &self.walls.list),
-        ];
-        for (kept, list) in lists {
-            kept.0.clear();
-            kept.0.extend_from_slice(&list.histories[..list.active]);
-            kept.1.clear();
-            kept.1.extend_from_slice(&list.live[..list.active]);
-        }
-    }
-
-    /// Puts the busy ones back to the start of the span.
-    fn take_back(&mut self) {
-        let Driven {
-            some,
-            start,
-            launches,
-            ..
-        } = &mut self.driven;
-        for (&place, state) in some.as_flattened().iter().zip(&start.states) {
-            let place = place as usize;
-            [
-                self.grains.motion[place],
-                self.grains.spin[place],
-                self.forces[place],
-            ] = *state;
-            launches[place].0[4..].fill(0.0);
-        }
-        let lists = [
-            (&start.pairs, &mut self.pairs),
-            (&start.walls, &mut self.walls.list),
-        ];
-        for (kept, list) in lists {
-            list.histories[..list.active].copy_from_slice(&kept.0);
-            list.live[..list.active].copy_from_slice(&kept.1);
-        }
-    }
-
-    /// Takes the busy ones through the span; returns the greatest speed [m/s].
-    fn sub_step(&mut self, span: &Span) -> Result<f64, Astray> {
-        let interaction = Interaction {
-            time_step: span.step,
-            ..self.interaction
-        };
-        let mut fastest = 0.0_f64;
-        if self.driven.count == 0 {
-            return Ok(fastest);
-        }
-        for step in 0..span.steps {
-            let kick = if step == 0 { 0.5 * span.step } else { span.step };
-            fastest = fastest.max(self.kick(kick, span.step, span.limit)?);
-            self.sum_active(&interaction);
-        }
-        fastest = fastest.max(self.kick(0.5 * span.step, 0.0, span.limit)?);
-        self.work.steps += u64::from(span.steps);
-        self.work.sub_steps += u64::from(span.steps) * self.driven.count as u64;
-        Ok(fastest)
-    }
-
-    fn kick(&mut self, kick: f64, drift: f64, limit: f64) -> Result<f64, Astray> {
-        // What acts on fixed grains moves nobody.
-        self.forces[self.grains.moving..].fill(Record::default());
-        let fastest = in_widest(KickSome {
-            motion: &mut self.grains.motion,
-            spin: &mut self.grains.spin,
-            forces: &mut self.forces,
-            launches: &mut self.driven.launches,
-            some: &self.driven.some,
-            stride: Stride { kick, drift, limit },
-            turn: self.interaction.laws.turn(),
-        });
-        if fastest.is_finite() {
-            Ok(fastest)
-        } else {
-            Err(self.astray(limit))
-        }
-    }
-
-    fn sum_active(&mut self, interaction: &Interaction) {
-        let deepest = in_widest(PairSweep {
-            interaction,
-            grains: &self.grains,
-            pairs: self.pairs.whole(),
-            elapsed: interaction.time_step,
-            sink: &mut self.forces[..],
-        });
-        let at_walls = in_widest(WallSweep {
-            interaction,
-            grains: &self.grains,
-            walls: &mut self.walls,
-            elapsed: interaction.time_step,
-            forces: &mut self.forces,
-        });
-        self.deepest = self.deepest.max(deepest).max(at_walls);
-        self.work.pairs += self.pairs.count as u64;
-    }
-
-    /// Whether a busy grain changed its velocity by more than was foreseen and so may have met somebody
-    /// outside. Bounds hold for what happened after it.
-    fn overlooked(&mut self, span: &Span) -> bool {
-        let Driven {
-            some,
-            launches,
-            flights,
-            change,
-            ..
-        } = &mut self.driven;
-        let mut farther = false;
-        for &place in some.as_flattened() {
-            let (bound, changed) = (&mut flights[place as usize].0[3], launches[place as usize].0[7]);
-            if changed > *bound * (1.0 + ROUNDING) {
-                (*bound, farther) = (changed, true);
-                *change = change.max(changed);
-            }
-        }
-        if !farther {
-            return false;
-        }
-        self.swap_start();
-        let overlooked = self.somebody_meets_outside(span);
-        self.swap_start();
-        overlooked
-    }
-
-    /// Exchanges the motion of the busy ones now and at the start of the span.
-    fn swap_start(&mut self) {
-        let Driven { some, start, .. } = &mut self.driven;
-        // Empty lanes stand for one that does not move.
-        for (&place, state) in some.as_flattened().iter().zip(&mut start.states) {
-            std::mem::swap(&mut self.grains.motion[place as usize], &mut state[0]);
-        }
-    }
-
     /// Flyers land; everybody tells what the fluid gave.
     fn arrive(&mut self, drives: &[Drive], span: &Span, impulses: &mut [Vec3]) -> Result<(), Astray> {
         let moving = self.grains.moving;
@@ -544,7 +233,7 @@ impl Bed {
             let [x, y, z, _, vx, vy, vz, _] = self.driven.flights[grain].0;
             let velocity = Vec3::new(vx, vy, vz);
             let before = self.grains.velocity(grain);
-            if !(velocity.norm_squared().max(before.norm_squared()) < span.limit * span.limit) {
+            if velocity.norm_squared().max(before.norm_squared()) >= span.limit * span.limit {
                 return Err(self.astray_flight(grain));
             }
             impulses[self.grains.number[grain] as usize] = self.given(grain, velocity - before);
