@@ -337,11 +337,15 @@ fn how_lists_are_made_is_no_part_of_the_result() {
 
 #[test]
 fn a_bed_goes_on_by_itself_after_it_was_driven() {
-    let setup = suspension([5, 5, 5], 0.4, 0.03, &[1.0], smooth(linear()));
+    let setup = suspension([5, 5, 5], 0.3, 0.05, &[1.0], smooth(linear()));
     let drives = water(&setup.grains, 1.0);
     for threads in [1, 2] {
         let mut bed = setup.bed().with_threads(threads);
-        run(&mut bed, &drives, 5);
+        run(&mut bed, &drives, 2);
+        // Forces of dashpots belong to the middle of a step: a bed that starts anew has others.
+        while !(bed.contacts().pairs.is_empty() && bed.contacts().walls.is_empty()) {
+            run(&mut bed, &drives, 1);
+        }
         let mut grains = setup.grains.clone();
         for (grain, state) in grains.iter_mut().zip(states(&bed)) {
             (grain.position, grain.velocity) = (state[0], state[1]);
@@ -353,7 +357,7 @@ fn a_bed_goes_on_by_itself_after_it_was_driven() {
         .bed();
         bed.deepest = 0.0;
         for bed in [&mut bed, &mut fresh] {
-            bed.advance(400).expect("no grain leaps");
+            bed.advance(200).expect("no grain leaps");
         }
         assert!(bed.deepest > 1e-4, "{}", bed.deepest);
         assert!(difference(&bed, &fresh) < 1e-6, "{}", difference(&bed, &fresh));
