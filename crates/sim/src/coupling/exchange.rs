@@ -324,7 +324,7 @@ impl Exchange {
 
 /// The copy of a place that has not left its anchor through a periodic side.
 #[inline(always)]
-fn unwrapped(place: &Vec3, anchor: &Vec3, width: f64) -> Vec3 {
+pub(super) fn unwrapped(place: &Vec3, anchor: &Vec3, width: f64) -> Vec3 {
     let whole = |way: f64| width * Number::round(way / width);
     Vec3::new(
         place.x - whole(place.x - anchor.x),

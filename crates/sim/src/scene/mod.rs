@@ -4,6 +4,7 @@ mod check;
 mod collision;
 mod describe;
 mod divergence;
+mod grain_lengths;
 mod mixture;
 mod observables;
 mod passage;

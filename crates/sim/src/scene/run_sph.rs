@@ -1,16 +1,15 @@
 //! Runs a settling scene in the particle fluid.
 
+use super::grain_lengths::{exchange, lattice_porosity};
 use super::mixture::mass;
 use super::record::Recorder;
-use super::setup::{POROSITY_LENGTH, Settling};
+use super::setup::Settling;
 use super::{
     Coupling, CouplingLengths, Hydrostatics, KernelChoice, PorosityPath, SelfDisturbance, SharpeningChoice,
     Slip, SphFluid, Start, StressDensity, SuspendedClass,
 };
 use crate::contact::LinearSpringDashpot;
-use crate::coupling::{
-    Basin, Breathing, Exchange, ExchangeRules, GrainSize, PorosityRules, SelfInducedFlow, grain_porosity,
-};
+use crate::coupling::{Basin, Breathing, Exchange, ExchangeRules, GrainSize, SelfInducedFlow};
 use crate::drag::PolydisperseLaw;
 use crate::fluid::kernel::Sharpening;
 use crate::fluid::{Continuity, EquationOfState, FluidParticles, Numerics};
@@ -221,66 +220,6 @@ pub fn numerics(sph: &SphFluid, spacing: f64, sound_speed: f64, gravity: f64) ->
     }
 }
 
-fn exchange(settling: &Settling, sph: &SphFluid, fluid: &FluidParticles, position: &[Vec3]) -> Exchange {
-    let rules = ExchangeRules {
-        sharpening: match sph.scheme.porosity {
-            PorosityPath::OnePass => exchange_sharpening(settling, sph),
-            PorosityPath::TwoPass => Sharpening::NONE,
-        },
-        floor_images: false,
-    };
-    let size = |class: &SuspendedClass| GrainSize {
-        diameter: class.diameter,
-        length: match sph.scheme.porosity {
-            PorosityPath::OnePass => settling.exchange_length_of(sph, class),
-            PorosityPath::TwoPass => fluid.numerics.smoothing(),
-        },
-    };
-    let classes = settling.grains();
-    let sizes = classes.iter().map(|class| size(class)).collect();
-    let exchange = Exchange::new(sizes, rules, fluid, position);
-    let smallest = settling.mixture.smallest();
-    match sph.scheme.coupling_lengths {
-        CouplingLengths::DoubleSmoothing => {
-            let larger = classes.iter().map(|class| class.diameter > smallest).collect();
-            let finest = (POROSITY_LENGTH * smallest).max(1.2 * fluid.numerics.spacing);
-            exchange.smoothing_twice(larger, finest, fluid)
-        }
-        CouplingLengths::DoubleSmoothingLiteral => {
-            exchange.giving(literal_shares(settling, &classes, position))
-        }
-        _ => exchange,
-    }
-}
-
-/// What Raso (2014), eq. 3.10 as printed leaves of the volume of each grain: the solids fraction of the larger
-/// classes where it is, over their own length.
-fn literal_shares(settling: &Settling, classes: &[&SuspendedClass], position: &[Vec3]) -> Vec<f64> {
-    let smallest = settling.mixture.smallest();
-    let is_larger = |class: &&SuspendedClass| class.diameter > smallest;
-    let (larger, places): (Vec<GrainSize>, Vec<Vec3>) = (classes.iter().zip(position))
-        .filter(|(class, _)| is_larger(class))
-        .map(|(class, place)| {
-            let size = GrainSize {
-                diameter: class.diameter,
-                length: POROSITY_LENGTH * class.diameter,
-            };
-            (size, *place)
-        })
-        .unzip();
-    let rules = PorosityRules {
-        sharpening: Sharpening::NONE,
-        ..PorosityRules::SHARP_LATTICE
-    };
-    let mut porosity = grain_porosity(&places, larger, rules, settling.column.width).into_iter();
-    (classes.iter())
-        .map(|class| match is_larger(class) {
-            true => porosity.next().map_or(1.0, |porosity| 1.0 - porosity),
-            false => 1.0,
-        })
-        .collect()
-}
-
 fn rules<L: PolydisperseLaw>(
     settling: &Settling,
     sph: &SphFluid,
@@ -341,23 +280,6 @@ pub fn slip_rule(sph: &SphFluid, isolated: bool) -> SlipRule {
     }
 }
 
-/// Porosity of every grain of a block.
-fn lattice_porosity(settling: &Settling, sph: &SphFluid, position: &[Vec3]) -> Vec<f64> {
-    let rules = PorosityRules {
-        sharpening: match sph.scheme.sharpening {
-            SharpeningChoice::Conservative => Sharpening::EDGE_NEUTRAL,
-            SharpeningChoice::None => Sharpening::NONE,
-        },
-        ..PorosityRules::SHARP_LATTICE
-    };
-    let size = |class: &SuspendedClass| GrainSize {
-        diameter: class.diameter,
-        length: settling.porosity_length_of(sph, class),
-    };
-    let sizes = settling.grains().into_iter().map(size).collect();
-    grain_porosity(position, sizes, rules, settling.column.width)
-}
-
 /// Length [m] of the continuous kernel that hands out and samples back as much as the exchange kernel does
 /// on the particles, averaged over a fall by one spacing.
 ///
@@ -389,7 +311,7 @@ fn resolved_length(settling: &Settling, sph: &SphFluid, fluid: &FluidParticles) 
 
 /// A block has edges to keep sharp; a single grain has none, and a sharper kernel only strengthens
 /// the wake that must be taken out again.
-fn exchange_sharpening(settling: &Settling, sph: &SphFluid) -> Sharpening {
+pub fn exchange_sharpening(settling: &Settling, sph: &SphFluid) -> Sharpening {
     match (sph.scheme.sharpening, settling.block) {
         (SharpeningChoice::Conservative, Some(_)) => Sharpening::SECOND_ORDER,
         _ => Sharpening::NONE,
