@@ -207,9 +207,15 @@ fn shares(mut simulation: Simulation<DiFelice>) {
             / BLOCK_REFRESH as f64,
     );
     let mut sums = PorositySums::new(PorosityRules::FREE, vec![SIZE; position.len()], WIDTH);
+    // Far enough to be summed anew every time.
+    let aside = |x: &Vec3| x + Vec3::new(0.1 * DIAMETER, 0.0, 0.0);
+    let mut places = [position.clone(), position.iter().map(aside).collect()];
     milliseconds(
         "share_grain_porosity",
-        median(|| seconds(|| sums.refresh(&position))) / BLOCK_REFRESH as f64,
+        median(|| {
+            places.swap(0, 1);
+            seconds(|| sums.refresh(&places[0]))
+        }) / BLOCK_REFRESH as f64,
     );
     let mut sum = 0.0;
     let order = exchange.order();

@@ -9,9 +9,9 @@ mod suspension;
 pub use snapshot::Snapshots;
 
 use kynch_sim::scene::{
-    Column, ConstantPorosityBlock, Coupling, Drag, Fluid, Grains, Hydrostatics, KernelChoice, Medium,
-    PorosityPath, Scene, Scheme, SelfDisturbance, SharpeningChoice, SingleSphere, Slip, SoundSpeed, SphFluid,
-    Start, StressDensity,
+    Column, ConstantPorosityBlock, Coupling, CouplingLengths, Drag, Fluid, Grains, Hydrostatics,
+    KernelChoice, Medium, PorosityPath, Scene, Scheme, SelfDisturbance, SharpeningChoice, SingleSphere, Slip,
+    SoundSpeed, SphFluid, Start, StressDensity, SuspendedClass,
 };
 
 use super::faults::{Fault, faults};
@@ -29,7 +29,10 @@ pub fn completed(mut spec: SceneSpec, snapshots: &Snapshots) -> SceneSpec {
         snapshots.fill(snapshot);
     }
     if let SceneSpec::ConstantPorosityBlock(block) = &mut spec {
-        let pitch = cubic_pitch(block.grains.diameter.0, block.porosity.0);
+        let classes = suspension::classes(&block.grains, &block.classes);
+        let volume =
+            |class: &SuspendedClass| class.share * std::f64::consts::PI / 6.0 * class.diameter.powi(3);
+        let pitch = cubic_pitch(classes.iter().map(volume).sum(), block.porosity.0);
         let width = block.column.width.0;
         block.grains_per_side.get_or_insert(count(width / pitch));
         let thickness = block.thickness.map(|thickness| thickness.0);
@@ -72,9 +75,8 @@ fn sharpen(spec: &mut SceneSpec) {
     }
 }
 
-/// Distance of neighbours in a cubic lattice of the given porosity [m].
-fn cubic_pitch(diameter: f64, porosity: f64) -> f64 {
-    let volume = std::f64::consts::PI / 6.0 * diameter.powi(3);
+/// Distance [m] of neighbours in a cubic lattice of grains of a volume [m³] at the given porosity.
+fn cubic_pitch(volume: f64, porosity: f64) -> f64 {
     (volume / (1.0 - porosity)).cbrt()
 }
 
@@ -113,7 +115,7 @@ pub fn work(spec: &SceneSpec) -> Work {
         })),
         SceneSpec::ConstantPorosityBlock(block) => {
             Work::Simulation(Scene::ConstantPorosityBlock(ConstantPorosityBlock {
-                grains: grains(&block.grains),
+                classes: suspension::classes(&block.grains, &block.classes),
                 drag: drag(block.drag),
                 fluid: fluid(&block.fluid),
                 column: column(&block.column),
@@ -142,7 +144,10 @@ pub fn refusals(spec: &SceneSpec, work: &Work) -> Vec<Fault> {
     let contradictions = match spec {
         SceneSpec::Sedimentation(spec) => sedimentation::contradictions(&spec.bed, "sedimentation"),
         SceneSpec::Filtration(spec) => sedimentation::contradictions(&spec.bed, "filtration"),
-        SceneSpec::Suspension(spec) => suspension::contradictions(spec),
+        SceneSpec::Suspension(spec) => suspension::contradictions("suspension", &spec.grains, &spec.classes),
+        SceneSpec::ConstantPorosityBlock(spec) => {
+            suspension::contradictions("constant_porosity_block", &spec.grains, &spec.classes)
+        }
         _ => Vec::new(),
     };
     if !contradictions.is_empty() {
@@ -160,7 +165,8 @@ fn placed(spec: &SceneSpec, mut fault: Fault) -> Fault {
             fault.path = filtration::path(spec, &fault.path);
             sedimentation::placed(&spec.bed, fault)
         }
-        SceneSpec::Suspension(spec) => suspension::placed(spec, fault),
+        SceneSpec::Suspension(spec) => suspension::placed(&spec.classes, fault),
+        SceneSpec::ConstantPorosityBlock(spec) => suspension::placed(&spec.classes, fault),
         _ => fault,
     }
 }
@@ -273,6 +279,13 @@ fn scheme(spec: &SchemeSpec) -> Scheme {
             SlipSpec::Superficial => Slip::Superficial,
             SlipSpec::Interstitial => Slip::Interstitial,
         },
+        coupling_lengths: match spec.coupling_lengths {
+            CouplingLengthsSpec::PerClass => CouplingLengths::PerClass,
+            CouplingLengthsSpec::Smallest => CouplingLengths::Smallest,
+            CouplingLengthsSpec::Largest => CouplingLengths::Largest,
+            CouplingLengthsSpec::DoubleSmoothing => CouplingLengths::DoubleSmoothing,
+            CouplingLengthsSpec::DoubleSmoothingLiteral => CouplingLengths::DoubleSmoothingLiteral,
+        },
         stiffness: match spec.stiffness {
             StiffnessSpec::Automatic => None,
             StiffnessSpec::Value(stiffness) => Some(stiffness),
@@ -312,7 +325,7 @@ mod tests {
             (6.0e-3, 0.8, 44),
         ] {
             assert_eq!(
-                count(width / cubic_pitch(1e-4, porosity)),
+                count(width / cubic_pitch(std::f64::consts::PI / 6.0 * 1e-12, porosity)),
                 side,
                 "{width} {porosity}"
             );

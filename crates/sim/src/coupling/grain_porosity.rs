@@ -13,7 +13,7 @@ mod strips;
 
 use strips::{StripSum, Strips};
 
-use super::GrainSize;
+use super::{GrainSize, exchange::unwrapped};
 use crate::fluid::kernel::Sharpening;
 use crate::math::Vec3;
 use crate::neighbours::in_widest;
@@ -63,6 +63,10 @@ impl PorosityRules {
     };
 }
 
+/// Way over the smallest porosity length that grains may go before their sums are taken anew [-]. The porosity
+/// changes over a length: at the edge of a suspension by a hundredth of its solids fraction at the most.
+const SLACK: f64 = 0.01;
+
 /// The porosity at grains of given sizes, again and again.
 #[derive(Clone, Debug)]
 pub struct PorositySums {
@@ -71,8 +75,11 @@ pub struct PorositySums {
     sizes: Vec<GrainSize>,
     /// Side of the periodic cross-section [m].
     width: f64,
-    strips: Strips,
+    strips: Box<Strips>,
     solids: Vec<f64>,
+    /// Where the grains were when the sums were taken [m], and how far they may go [m].
+    anchor: Vec<Vec3>,
+    slack: f64,
     /// Porosity [-] of every grain at the last [`refresh`](Self::refresh).
     pub porosity: Vec<f64>,
 }
@@ -84,14 +91,22 @@ impl PorositySums {
             rules,
             porosity: vec![1.0; sizes.len()],
             solids: Vec::new(),
+            anchor: Vec::new(),
+            slack: SLACK * sizes.iter().map(|size| size.length).fold(f64::INFINITY, f64::min),
             sizes,
             width,
-            strips: Strips::default(),
+            strips: Box::default(),
         }
     }
 
-    /// Sums anew for grains at these places [m].
+    /// Sums anew for grains at these places [m], if one has gone far enough to tell: a settled bed costs
+    /// nothing.
     pub fn refresh(&mut self, position: &[Vec3]) {
+        if !self.outgrown(position) {
+            return;
+        }
+        self.anchor.clear();
+        self.anchor.extend(position);
         self.strips
             .fill(position, &self.sizes, self.width, self.rules.floor_images);
         self.solids.clear();
@@ -107,6 +122,15 @@ impl PorositySums {
                 size.volume() / (size.length * size.length * size.length) * self.rules.sharpening.value(0.0);
             *porosity = 1.0 - solids + self.rules.arrangement.own_share(solids) * own;
         }
+    }
+}
+
+impl PorositySums {
+    fn outgrown(&self, position: &[Vec3]) -> bool {
+        let limit = self.slack * self.slack;
+        let gone =
+            |(x, anchor): (&Vec3, &Vec3)| (unwrapped(x, anchor, self.width) - anchor).norm_squared() > limit;
+        self.anchor.len() != position.len() || position.iter().zip(&self.anchor).any(gone)
     }
 }
 

@@ -119,6 +119,28 @@ fn a_random_suspension_is_seen_at_its_own_porosity_down_to_the_floor() {
 }
 
 #[test]
+fn sums_are_kept_until_a_grain_has_gone_far_enough_to_tell() {
+    let count = 400;
+    let position = scattered(count, 1e-3);
+    let mut kept = PorositySums::new(PorosityRules::FREE, vec![size(DIAMETER); count], WIDTH);
+    kept.refresh(&position);
+    let before = kept.porosity.clone();
+    let fallen = |way: f64| -> Vec<Vec3> {
+        let alternately = |(i, x): (usize, &Vec3)| x + Vec3::new(way * [1.0, -1.0][i % 2], 0.0, 0.0);
+        position.iter().enumerate().map(alternately).collect()
+    };
+    let (near, far) = (fallen(0.9 * kept.slack), fallen(1.1 * kept.slack));
+    kept.refresh(&near);
+    assert_eq!(kept.porosity, before);
+    let anew = grain_porosity(&near, vec![size(DIAMETER); count], PorosityRules::FREE, WIDTH);
+    for (kept, anew) in kept.porosity.iter().zip(&anew) {
+        assert!((kept - anew).abs() < 1e-3, "{kept} {anew}");
+    }
+    kept.refresh(&far);
+    assert_ne!(kept.porosity, before);
+}
+
+#[test]
 fn every_instruction_set_gives_the_same_bits() {
     let position = scattered(200, 1e-3);
     let mut sums = PorositySums::new(PorosityRules::FREE, vec![size(DIAMETER); 200], WIDTH);
