@@ -2,6 +2,7 @@
 
 use super::model::{SuspendingFluid, Suspension};
 use super::observe::MOST_CLASSES;
+use super::particles::Particles;
 use crate::scene::check::{List, millimetres, particle_fluid, threads_and_snapshots};
 use crate::scene::sedimentation::{class_path, time_step};
 use crate::scene::{Drag, Scheme, SphFluid};
@@ -22,6 +23,9 @@ pub fn check(scene: &Suspension, list: &mut List) {
     if let (true, SuspendingFluid::Sph(fluid)) = (sound, &scene.fluid) {
         sound &= particle_fluid(fluid, scene.smallest_diameter(), &scene.column, list);
         sound &= scheme(fluid, list);
+        if sound {
+            fluid_step(scene, fluid, list);
+        }
     }
     if sound {
         time_step(&scene.as_sedimentation(), list);
@@ -186,6 +190,19 @@ fn sauter(scene: &Suspension, list: &mut List) -> bool {
         list.add("drag", message, help);
     }
     !mixed
+}
+
+/// Refuses a fluid step beyond the longest safe one.
+fn fluid_step(scene: &Suspension, fluid: &SphFluid, list: &mut List) {
+    let (limit, name) = Particles { scene, sph: fluid }.step_limit();
+    match fluid.scheme.time_step {
+        Some(step) if step > limit && !fluid.scheme.unsafe_time_step => {
+            let message = format!("`time_step` is {step:.3e} s, its limit {name} is {limit:.3e} s");
+            let help = "stay below the limit, leave it to `automatic`, or set `unsafe_time_step: true`";
+            list.add("fluid.sph.scheme.time_step", message, help);
+        }
+        _ => {}
+    }
 }
 
 /// What the scene says itself must not be said in the scheme.
