@@ -7,12 +7,14 @@ use kynch_sim::scene::Drag;
 use super::console::Paint;
 use crate::{reference, study};
 
-const LAWS: [Drag; 5] = [
+const LAWS: [Drag; 7] = [
     Drag::Stokes,
     Drag::Dallavalle,
     Drag::SchillerNaumann,
     Drag::DiFelice,
     Drag::CoulsonRichardson,
+    Drag::Beetstra,
+    Drag::BeetstraCello,
 ];
 
 /// Studies, scenes, drag laws, expectations, references and figures with one line each.
@@ -68,6 +70,8 @@ fn name(law: Drag) -> &'static str {
         Drag::SchillerNaumann => "schiller_naumann",
         Drag::DiFelice => "di_felice",
         Drag::CoulsonRichardson => "coulson_richardson",
+        Drag::Beetstra => "beetstra",
+        Drag::BeetstraCello => "beetstra_cello",
     }
 }
 
@@ -78,6 +82,12 @@ fn meaning(law: Drag) -> &'static str {
         Drag::SchillerNaumann => "one sphere up to Reynolds number 800",
         Drag::DiFelice => "Dallavalle's law with a voidage function, for many spheres",
         Drag::CoulsonRichardson => "one sphere from creeping flow to turbulence, a sum of three powers",
+        Drag::Beetstra => {
+            "many spheres of one size up to Reynolds number 1000, by lattice Boltzmann simulation"
+        }
+        Drag::BeetstraCello => {
+            "Beetstra's law shared out among spheres of several sizes by their diameter over the Sauter mean"
+        }
     }
 }
 

@@ -7,6 +7,8 @@
 //! Schiller–Naumann     C_D = 24/Re (1 + 0.15 Re^0.687), 0.44 from Re = 1000
 //! Coulson–Richardson   C_D = 2 (1.84 Re^−0.31 + 0.293 Re^0.06)^3.45
 //! Di Felice            Dallavalle with ξ = 3.7 − 0.65 exp(−(1.5 − log₁₀ Re)²/2); otherwise ξ = 0
+//! Beetstra             f = [10φ/ε² + ε²(1 + 1.5√φ)] (1 + χ), the neighbours within, ξ = 0
+//! Beetstra and Cello   β f with β = [1/f + ((3ε − 1)/2 − 1/f) y + ½ φ y²]/ε, f at Re/y, y = d/⟨d⟩
 //! ```
 //!
 //! The pressure-gradient force is apart. Dallavalle is 4 % below Stokes at rest; the factor of
@@ -14,7 +16,8 @@
 //!
 //! Sources: Schiller & Naumann (1935), Z. VDI 77, 318; Dallavalle (1948), Micromeritics; Coulson &
 //! Richardson (2002), Chemical Engineering vol. 2, ch. 3; Di Felice (1994), Int. J. Multiphase Flow 20, 153;
-//! as used by Raso (2014), eqs. 2.73–2.79.
+//! Beetstra et al. (2007), AIChE J. 53, 489; Cello et al. (2010), Chem. Eng. Sci. 65, 3128; as used by Raso
+//! (2014), eqs. 2.73–2.88.
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DragLaw {
@@ -24,6 +27,10 @@ pub enum DragLaw {
     CoulsonRichardson,
     /// Dallavalle with the Di Felice voidage function.
     DiFelice,
+    /// Equal spheres; the neighbours are part of the law.
+    Beetstra,
+    /// The same shared out among several sizes.
+    BeetstraCello,
 }
 
 impl DragLaw {
@@ -35,6 +42,8 @@ impl DragLaw {
             "schiller_naumann" => DragLaw::SchillerNaumann,
             "coulson_richardson" => DragLaw::CoulsonRichardson,
             "di_felice" => DragLaw::DiFelice,
+            "beetstra" => DragLaw::Beetstra,
+            "beetstra_cello" => DragLaw::BeetstraCello,
             _ => return None,
         })
     }
@@ -52,6 +61,7 @@ impl DragLaw {
             DragLaw::CoulsonRichardson => {
                 re * re / 12.0 * (1.84 * re.powf(-0.31) + 0.293 * re.powf(0.06)).powf(3.45)
             }
+            DragLaw::Beetstra | DragLaw::BeetstraCello => re * beetstra(re, 1.0),
         }
     }
 
@@ -73,8 +83,35 @@ impl DragLaw {
 
     /// f Re ε^−ξ at a porosity ε [-].
     pub fn hindered_force(self, re: f64, porosity: f64) -> f64 {
-        self.force(re) * porosity.powf(-self.voidage_exponent(re))
+        match self {
+            DragLaw::Beetstra | DragLaw::BeetstraCello if re > 0.0 => re * beetstra(re, porosity),
+            _ => self.force(re) * porosity.powf(-self.voidage_exponent(re)),
+        }
     }
+
+    /// f Re ε^−ξ of a grain of relative diameter y = d/⟨d⟩ [-] among others, Re its own.
+    pub fn sized_force(self, re: f64, porosity: f64, relative_diameter: f64) -> f64 {
+        match self {
+            DragLaw::BeetstraCello if re > 0.0 => {
+                let (f, y) = (beetstra(re / relative_diameter, porosity), relative_diameter);
+                let linear = (3.0 * porosity - 1.0) / 2.0 - 1.0 / f;
+                let beta = (1.0 / f + linear * y + 0.5 * (1.0 - porosity) * y * y) / porosity;
+                re * beta * f
+            }
+            _ => self.hindered_force(re, porosity),
+        }
+    }
+}
+
+/// Drag on one of many equal spheres over Stokes drag, Re > 0.
+pub fn beetstra(re: f64, porosity: f64) -> f64 {
+    let solid = 1.0 - porosity;
+    let open = porosity.powi(2) * (1.0 + 1.5 * solid.sqrt());
+    let slow = 10.0 * solid / porosity.powi(2) + open;
+    let crowd = 1.0 / porosity + 3.0 * porosity * solid + 8.4 * re.powf(-0.343);
+    let onset = 1.0 + 10f64.powf(3.0 * solid) * re.powf(-(1.0 + 4.0 * solid) / 2.0);
+    let chi = 0.413 * re / (240.0 * solid + 24.0 * porosity.powi(2) * open) * crowd / onset;
+    slow * (1.0 + chi)
 }
 
 #[cfg(test)]
@@ -82,12 +119,14 @@ mod tests {
     use super::*;
     use crate::reference::library::tests::{assert_printed, dataset};
 
-    const LAWS: [DragLaw; 5] = [
+    const LAWS: [DragLaw; 7] = [
         DragLaw::Stokes,
         DragLaw::Dallavalle,
         DragLaw::SchillerNaumann,
         DragLaw::CoulsonRichardson,
         DragLaw::DiFelice,
+        DragLaw::Beetstra,
+        DragLaw::BeetstraCello,
     ];
 
     #[test]
@@ -114,8 +153,26 @@ mod tests {
         let table = dataset("voidage_drag_analytic.csv");
         for row in 0..table.rows() {
             let re = table.number("Re_superficial", row);
-            let force = DragLaw::DiFelice.hindered_force(re, table.number("porosity", row));
-            assert_printed(force / re, table.text("F_difelice_dallavalle", row));
+            let porosity = table.number("porosity", row);
+            let over_stokes = |law: DragLaw| law.hindered_force(re, porosity) / re;
+            assert_printed(
+                over_stokes(DragLaw::DiFelice),
+                table.text("F_difelice_dallavalle", row),
+            );
+            assert_printed(over_stokes(DragLaw::Beetstra), table.text("F_bvk", row));
+        }
+    }
+
+    #[test]
+    fn sizes_matter_to_one_law_alone_and_not_among_equals() {
+        for law in LAWS {
+            let forces = [0.5, 1.0, 2.0].map(|y| law.sized_force(0.3, 0.8, y));
+            assert!((forces[1] / law.hindered_force(0.3, 0.8) - 1.0).abs() < 1e-14);
+            assert_eq!(
+                law == DragLaw::BeetstraCello,
+                forces[0] < forces[1] && forces[1] < forces[2]
+            );
+            assert_eq!(law != DragLaw::BeetstraCello, forces[0] == forces[2]);
         }
     }
 

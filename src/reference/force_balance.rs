@@ -13,10 +13,13 @@
 //!
 //! The root is the superficial slip, which in a closed column is the settling velocity itself.
 //! Uniform suspension of equal spheres; at ε = 1 it is the isolated grain.
+//! A rigid block of several classes of grains is in `polydisperse_block.rs`.
 //! Source: Raso (2014), eq. 4.4, with 0.63² = 0.3969 where 0.392 is printed.
 
 use super::drag_law::DragLaw;
 use super::grain::Grain;
+use super::mixture::Mixture;
+use super::polydisperse_block::block_velocity;
 use super::root::rising_root;
 use super::{Entry, Kind, Solution};
 
@@ -51,7 +54,7 @@ pub(super) fn solution() -> Solution {
     Solution {
         entry: Entry {
             name: "force_balance",
-            meaning: "settling velocity at the scene's constant porosity (1 for a lone sphere) under its drag law",
+            meaning: "settling velocity at the scene's porosity (1 for a lone sphere) under its drag law; of a rigid block also for several classes of grains",
             source: "Raso (2014), eq. 4.4, with 0.3969 = 0.63² for the printed 0.392",
         },
         unit: "m/s",
@@ -60,6 +63,10 @@ pub(super) fn solution() -> Solution {
                 "single_sphere" => 1.0,
                 _ => case.number("porosity")?,
             };
+            if case.kind == "constant_porosity_block" && case.classes()?.len() > 1 {
+                let mixture = Mixture::by_number(case.law()?, &case.classes()?, porosity);
+                return Ok(block_velocity(&mixture));
+            }
             let balance = ForceBalance {
                 grain: case.grain()?,
                 law: case.law()?,

@@ -5,12 +5,17 @@ mod collision;
 pub mod data;
 pub mod drag_law;
 pub mod first_settling_speed;
+pub mod flux_curve;
 pub mod force_balance;
 pub mod grain;
 pub mod hertz_collision;
 pub mod kernel;
+pub mod kynch;
 pub mod library;
+pub mod mixture;
+pub mod polydisperse_block;
 pub mod rehearsal;
+pub mod richardson_zaki;
 mod root;
 mod settings;
 pub mod smoothed_balance;
@@ -18,6 +23,7 @@ pub mod spring_dashpot_collision;
 mod stable_step;
 pub mod stokes_start_up;
 pub mod terminal_velocity;
+pub mod zero_net_flux;
 
 use serde_json::Value;
 
@@ -79,7 +85,7 @@ struct Solution {
 
 /// The register: one line per solution.
 fn solutions() -> Vec<Solution> {
-    vec![
+    let one = vec![
         stokes_start_up::solution(),
         terminal_velocity::solution(),
         force_balance::solution(),
@@ -93,7 +99,12 @@ fn solutions() -> Vec<Solution> {
         stable_step::solution(),
         rehearsal::limit(),
         rehearsal::series(),
-    ]
+    ];
+    let several = richardson_zaki::solutions().into_iter();
+    let several = several
+        .chain(zero_net_flux::solutions())
+        .chain(kynch::solutions());
+    one.into_iter().chain(several).collect()
 }
 
 /// A scalar reference by name.
@@ -207,6 +218,8 @@ mod tests {
             "schiller_naumann",
             "di_felice",
             "coulson_richardson",
+            "beetstra",
+            "beetstra_cello",
         ] {
             let settings = sphere(law);
             let alone = value("terminal_velocity", &settings).unwrap();

@@ -202,7 +202,7 @@ fn written_scenes(root: &Node, problems: &mut Problems) -> Vec<WrittenScene> {
             Vec::new()
         }
         (None, None) => {
-            let help = "add `scene:` with one of single_sphere, constant_porosity_block, binary_collision, sedimentation, rehearsal";
+            let help = "add `scene:` with one of single_sphere, constant_porosity_block, binary_collision, sedimentation, suspension, rehearsal";
             problems.add(
                 &first_key(root),
                 "scene",

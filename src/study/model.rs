@@ -153,8 +153,10 @@ impl Work {
     /// The same work with another seed, where it has one.
     pub fn seeded(&self, seed: u64) -> Work {
         let mut work = self.clone();
-        if let Work::Simulation(Scene::Sedimentation(scene)) = &mut work {
-            scene.seed = seed;
+        match &mut work {
+            Work::Simulation(Scene::Sedimentation(scene)) => scene.seed = seed,
+            Work::Simulation(Scene::Suspension(scene)) => scene.seed = seed,
+            _ => {}
         }
         work
     }

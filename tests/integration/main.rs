@@ -10,3 +10,4 @@ mod runner;
 mod sedimentation;
 mod store;
 mod studies;
+mod suspension;

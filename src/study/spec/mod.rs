@@ -6,6 +6,7 @@ pub mod quantity;
 pub mod scene;
 pub mod sedimentation;
 pub mod statement;
+pub mod suspension;
 
 use std::collections::BTreeMap;
 

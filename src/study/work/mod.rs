@@ -3,13 +3,14 @@
 mod collision;
 mod sedimentation;
 mod snapshot;
+mod suspension;
 
 pub use snapshot::Snapshots;
 
 use kynch_sim::scene::{
-    Column, ConstantPorosityBlock, Coupling, Drag, Fluid, Grains, Hydrostatics, KernelChoice, Medium,
-    PorosityPath, Scene, Scheme, SelfDisturbance, SharpeningChoice, SingleSphere, Slip, SoundSpeed, SphFluid,
-    Start, StressDensity,
+    Column, ConstantPorosityBlock, Coupling, CouplingLengths, Drag, Fluid, Grains, Hydrostatics,
+    KernelChoice, Medium, PorosityPath, Scene, Scheme, SelfDisturbance, SharpeningChoice, SingleSphere, Slip,
+    SoundSpeed, SphFluid, Start, StressDensity, SuspendedClass,
 };
 
 use super::faults::{Fault, faults};
@@ -17,8 +18,10 @@ use super::model::{Rehearsal, RehearsalEnding, Work};
 use super::spec::quantity::{CoefficientSpec, SoundSpeedSpec, StiffnessSpec, TimeStepSpec};
 use super::spec::scene::*;
 use super::spec::sedimentation::{ArrangementSpec, SedimentationSpec};
+use super::spec::suspension::{SuspendingFluidSpec, SuspensionSpec};
 
-/// Fills in what follows from other fields and files: the lattice of a block, the grains of a snapshot.
+/// Fills in what follows from other fields and files: the lattice of a block, the grains of a snapshot, the
+/// sharpening that suits the scene.
 pub fn completed(mut spec: SceneSpec, snapshots: &Snapshots) -> SceneSpec {
     if let SceneSpec::Sedimentation(SedimentationSpec {
         arrangement: ArrangementSpec::Snapshot(snapshot),
@@ -28,7 +31,10 @@ pub fn completed(mut spec: SceneSpec, snapshots: &Snapshots) -> SceneSpec {
         snapshots.fill(snapshot);
     }
     if let SceneSpec::ConstantPorosityBlock(block) = &mut spec {
-        let pitch = cubic_pitch(block.grains.diameter.0, block.porosity.0);
+        let classes = suspension::classes(&block.grains, &block.classes);
+        let volume =
+            |class: &SuspendedClass| class.share * std::f64::consts::PI / 6.0 * class.diameter.powi(3);
+        let pitch = cubic_pitch(classes.iter().map(volume).sum(), block.porosity.0);
         let width = block.column.width.0;
         block.grains_per_side.get_or_insert(count(width / pitch));
         let thickness = block.thickness.map(|thickness| thickness.0);
@@ -36,12 +42,34 @@ pub fn completed(mut spec: SceneSpec, snapshots: &Snapshots) -> SceneSpec {
             block.layers.get_or_insert(count(thickness / pitch));
         }
     }
+    sharpen(&mut spec);
     spec
 }
 
-/// Distance of neighbours in a cubic lattice of the given porosity [m].
-fn cubic_pitch(diameter: f64, porosity: f64) -> f64 {
-    let volume = std::f64::consts::PI / 6.0 * diameter.powi(3);
+/// Settles an automatic sharpening.
+fn sharpen(spec: &mut SceneSpec) {
+    let (fluid, suits) = match spec {
+        SceneSpec::SingleSphere(SingleSphereSpec {
+            fluid: FluidSpec::Sph(sph),
+            ..
+        })
+        | SceneSpec::ConstantPorosityBlock(BlockSpec {
+            fluid: FluidSpec::Sph(sph),
+            ..
+        }) => (sph, SharpeningSpec::Conservative),
+        SceneSpec::Suspension(SuspensionSpec {
+            fluid: SuspendingFluidSpec::Sph(sph),
+            ..
+        }) => (sph, SharpeningSpec::None),
+        _ => return,
+    };
+    if let SharpeningSpec::Automatic = fluid.scheme.sharpening {
+        fluid.scheme.sharpening = suits;
+    }
+}
+
+/// Distance [m] of neighbours in a cubic lattice of grains of a volume [m³] at the given porosity.
+fn cubic_pitch(volume: f64, porosity: f64) -> f64 {
     (volume / (1.0 - porosity)).cbrt()
 }
 
@@ -80,7 +108,7 @@ pub fn work(spec: &SceneSpec) -> Work {
         })),
         SceneSpec::ConstantPorosityBlock(block) => {
             Work::Simulation(Scene::ConstantPorosityBlock(ConstantPorosityBlock {
-                grains: grains(&block.grains),
+                classes: suspension::classes(&block.grains, &block.classes),
                 drag: drag(block.drag),
                 fluid: fluid(&block.fluid),
                 column: column(&block.column),
@@ -98,6 +126,7 @@ pub fn work(spec: &SceneSpec) -> Work {
         SceneSpec::Sedimentation(spec) => {
             Work::Simulation(Scene::Sedimentation(sedimentation::sedimentation(spec)))
         }
+        SceneSpec::Suspension(spec) => Work::Simulation(Scene::Suspension(suspension::suspension(spec))),
         SceneSpec::Rehearsal(rehearsal) => Work::Rehearsal(rehearsed(rehearsal)),
     }
 }
@@ -112,6 +141,27 @@ pub fn refusals(spec: &SceneSpec, work: &Work) -> Vec<Fault> {
             }
             let found = faults(work).into_iter();
             found.map(|fault| sedimentation::placed(spec, fault)).collect()
+        }
+        SceneSpec::Suspension(spec) => {
+            let contradictions = suspension::contradictions("suspension", &spec.grains, &spec.classes);
+            if !contradictions.is_empty() {
+                return contradictions;
+            }
+            let found = faults(work).into_iter();
+            found
+                .map(|fault| suspension::placed(&spec.classes, fault))
+                .collect()
+        }
+        SceneSpec::ConstantPorosityBlock(spec) => {
+            let name = "constant_porosity_block";
+            let contradictions = suspension::contradictions(name, &spec.grains, &spec.classes);
+            if !contradictions.is_empty() {
+                return contradictions;
+            }
+            let found = faults(work).into_iter();
+            found
+                .map(|fault| suspension::placed(&spec.classes, fault))
+                .collect()
         }
         _ => faults(work),
     }
@@ -157,6 +207,8 @@ fn drag(spec: DragSpec) -> Drag {
         DragSpec::SchillerNaumann => Drag::SchillerNaumann,
         DragSpec::DiFelice => Drag::DiFelice,
         DragSpec::CoulsonRichardson => Drag::CoulsonRichardson,
+        DragSpec::Beetstra => Drag::Beetstra,
+        DragSpec::BeetstraCello => Drag::BeetstraCello,
     }
 }
 
@@ -164,14 +216,18 @@ fn fluid(spec: &FluidSpec) -> Fluid {
     match spec {
         FluidSpec::Still(still) => Fluid::Still(medium(still)),
         FluidSpec::Column(column) => Fluid::Column(medium(column)),
-        FluidSpec::Sph(sph) => Fluid::Sph(SphFluid {
-            medium: Medium {
-                density: sph.density.0,
-                viscosity: sph.viscosity.0,
-            },
-            spacing_over_diameter: sph.spacing_over_diameter.0,
-            scheme: scheme(&sph.scheme),
-        }),
+        FluidSpec::Sph(fluid) => Fluid::Sph(sph(fluid)),
+    }
+}
+
+fn sph(spec: &SphSpec) -> SphFluid {
+    SphFluid {
+        medium: Medium {
+            density: spec.density.0,
+            viscosity: spec.viscosity.0,
+        },
+        spacing_over_diameter: spec.spacing_over_diameter.0,
+        scheme: scheme(&spec.scheme),
     }
 }
 
@@ -205,7 +261,7 @@ fn scheme(spec: &SchemeSpec) -> Scheme {
         },
         sharpening: match spec.sharpening {
             SharpeningSpec::None => SharpeningChoice::None,
-            SharpeningSpec::Conservative => SharpeningChoice::Conservative,
+            SharpeningSpec::Automatic | SharpeningSpec::Conservative => SharpeningChoice::Conservative,
         },
         start: match spec.start {
             StartSpec::Exact => Start::Exact,
@@ -218,6 +274,13 @@ fn scheme(spec: &SchemeSpec) -> Scheme {
         slip: match spec.slip {
             SlipSpec::Superficial => Slip::Superficial,
             SlipSpec::Interstitial => Slip::Interstitial,
+        },
+        coupling_lengths: match spec.coupling_lengths {
+            CouplingLengthsSpec::PerClass => CouplingLengths::PerClass,
+            CouplingLengthsSpec::Smallest => CouplingLengths::Smallest,
+            CouplingLengthsSpec::Largest => CouplingLengths::Largest,
+            CouplingLengthsSpec::DoubleSmoothing => CouplingLengths::DoubleSmoothing,
+            CouplingLengthsSpec::DoubleSmoothingLiteral => CouplingLengths::DoubleSmoothingLiteral,
         },
         stiffness: match spec.stiffness {
             StiffnessSpec::Automatic => None,
@@ -258,7 +321,7 @@ mod tests {
             (6.0e-3, 0.8, 44),
         ] {
             assert_eq!(
-                count(width / cubic_pitch(1e-4, porosity)),
+                count(width / cubic_pitch(std::f64::consts::PI / 6.0 * 1e-12, porosity)),
                 side,
                 "{width} {porosity}"
             );

@@ -72,11 +72,13 @@ fn all_registers_give_the_same_bits_under_every_law() {
         SphereDrag::Stokes,
         SphereDrag::Dallavalle,
         SphereDrag::SchillerNaumann,
+        SphereDrag::CoulsonRichardson,
+        SphereDrag::Beetstra,
     ];
     let voidages = [AnyVoidage::None, AnyVoidage::DiFelice, AnyVoidage::AlvimLiteral];
     for (case, laws) in all_laws().into_iter().enumerate() {
         let drag = AnyDrag {
-            sphere: spheres[case % 3],
+            sphere: spheres[case % spheres.len()],
             voidage: voidages[case / 3 % 3],
         };
         let interaction = Interaction {
