@@ -2,12 +2,12 @@
 //! `BENCH driven_<what> <time> ms/span`.
 //!
 //! ```text
-//! cargo bench -p kynch-sim --bench beds -- --driven [--spans N]
+//! cargo bench -p kynch-sim --bench beds -- --driven [--spans N] [--only NAME]
 //! ```
 //!
 //! Grains of 100 µm and 2500 kg/m³ in water fill 4 × 4 × 6 mm to a tenth, periodic sideways. The fluid is
-//! at rest, its drag Stokes' times Di Felice's ε^−β; spans last 1e-4 s. The bed is what comes of it when
-//! the water is ten times as thin. Without flights a reach without force makes everybody busy.
+//! at rest, its drag Stokes' times Di Felice's ε^−β; spans last 1e-4 s. The bed is what comes of a
+//! shaken lattice of the same grains. Without flights a reach without force makes everybody busy.
 
 use std::f64::consts::PI;
 
@@ -31,33 +31,39 @@ const STEP: f64 = 4e-6;
 
 pub fn main() {
     let arguments: Vec<String> = std::env::args().collect();
-    let spans = arguments
-        .iter()
-        .position(|argument| argument == "--spans")
-        .and_then(|at| arguments.get(at + 1)?.parse().ok())
+    let told = |name: &str| {
+        let at = arguments.iter().position(|argument| argument == name)?;
+        arguments.get(at + 1)
+    };
+    let spans = told("--spans")
+        .and_then(|number| number.parse().ok())
         .unwrap_or(40);
+    let wanted = |name: &str| told("--only").is_none_or(|only| name.contains(only.as_str()));
     let grains = suspension();
     for (name, laws) in [("smooth", smooth()), ("friction", friction())] {
         for flights in [true, false] {
             let what = if flights { "flights" } else { "substeps" };
+            let name = format!("suspension_{name}_{what}");
+            if !wanted(&name) {
+                continue;
+            }
             let mut bed = bed(&grains, laws, flights);
             let drives = drives(grains.len(), 1.0, 0.9);
             run(&mut bed, &drives, spans.max(50), None);
-            run(
-                &mut bed,
-                &drives,
-                spans,
-                Some(&format!("suspension_{name}_{what}")),
-            );
+            run(&mut bed, &drives, spans, Some(&name));
         }
     }
     for (name, laws) in [("smooth", smooth()), ("friction", friction())] {
-        let mut settled = bed(&grains, laws, true);
-        // Down in fifteen hundredths of a second, at rest soon after.
-        run(&mut settled, &drives(grains.len(), 0.1, 1.0), 2000, None);
-        let drives = drives(grains.len(), 1.0, 0.45);
-        run(&mut settled, &drives, 200, None);
-        run(&mut settled, &drives, spans, Some(&format!("bed_{name}_flights")));
+        let name = format!("bed_{name}_flights");
+        if !wanted(&name) {
+            continue;
+        }
+        let loose = loose(grains.len());
+        let mut settled = bed(&loose, laws, true);
+        run(&mut settled, &drives(loose.len(), 0.1, 1.0), 300, None);
+        let drives = drives(loose.len(), 1.0, 0.45);
+        run(&mut settled, &drives, 100, None);
+        run(&mut settled, &drives, spans, Some(&name));
     }
 }
 
@@ -83,8 +89,8 @@ fn run(bed: &mut Bed, drives: &[Drive], spans: u64, name: Option<&str>) {
         "flights per span {:.0}, grains sub-stepped {:.0}, pairs {:.0}, lists {:.2}, repeats {:.2}, \
          greatest overlap {:.4} of d",
         per_span(bed.work.flights, work.flights),
-        sub_steps / spans as f64 / (SPAN / STEP).ceil(),
-        per_span(bed.work.pairs, work.pairs) / (SPAN / STEP).ceil(),
+        sub_steps / spans as f64 / (SPAN / STEP).round(),
+        per_span(bed.work.pairs, work.pairs) / (SPAN / STEP).round(),
         per_span(bed.work.lists, work.lists),
         per_span(bed.work.repeats, work.repeats),
         bed.deepest
@@ -140,6 +146,27 @@ fn suspension() -> Vec<Grain> {
         }
     }
     grains
+}
+
+/// A shaken lattice that falls together to a bed.
+fn loose(count: usize) -> Vec<Grain> {
+    let mut random = Random::new(4);
+    let per_side = (SIZE[0] / (1.15 * DIAMETER)) as usize;
+    let pitch = Vec3::new(SIZE[0], SIZE[1], 1.02 * DIAMETER * per_side as f64) / per_side as f64;
+    let grain = |i: usize| {
+        let cell = [i % per_side, i / per_side % per_side, i / per_side / per_side];
+        let corner = Vec3::from_fn(|axis, _| pitch[axis] * (cell[axis] as f64 + 0.5));
+        let play = DIAMETER * 0.07;
+        let shaken = Vec3::new(random.between(-play, play), random.between(-play, play), 0.0);
+        Grain {
+            body: Body::sphere(DIAMETER, 2500.0),
+            class: 0,
+            position: corner + shaken,
+            velocity: Vec3::zeros(),
+            angular_velocity: Vec3::zeros(),
+        }
+    };
+    (0..count).map(grain).collect()
 }
 
 fn smooth() -> Laws {

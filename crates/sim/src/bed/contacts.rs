@@ -17,6 +17,17 @@ const IN_CACHE: usize = 16_384;
 /// The contact laws of a bed.
 pub type Laws = ContactLaws<AnyNormal, AnyTangential, AnyRolling>;
 
+impl Laws {
+    /// Whether contacts turn the grains, and so depend on how they turn.
+    #[inline(always)]
+    pub fn turn(&self) -> bool {
+        !matches!(
+            (&self.tangential, &self.rolling),
+            (AnyTangential::None, AnyRolling::None)
+        )
+    }
+}
+
 /// What the evaluation of a pair needs to know beside the two grains.
 #[derive(Clone, Copy, Debug)]
 pub struct Interaction {
@@ -106,8 +117,13 @@ impl Interaction {
             }
             return None;
         }
-        let a = Party::new(a, W::gather(&grains.spin, first));
-        let b = Party::new(b, W::gather(&grains.spin, second));
+        // Smooth grains feel no spin.
+        let (spin_a, spin_b) = if self.laws.turn() {
+            (W::gather(&grains.spin, first), W::gather(&grains.spin, second))
+        } else {
+            ([zero; 8], [zero; 8])
+        };
+        let (a, b) = (Party::new(a, spin_a), Party::new(b, spin_b));
         let couple = match &self.couple {
             Some(couple) => couple.splat(),
             None => couple(&a, &b),
@@ -255,6 +271,7 @@ impl<S: Sink> WideWork for PairSweep<'_, S> {
         } else {
             usize::MAX / 2
         };
+        let turn = self.interaction.laws.turn();
         let Stretch {
             blocks,
             histories,
@@ -265,7 +282,9 @@ impl<S: Sink> WideWork for PairSweep<'_, S> {
             if let Some(next) = blocks.get(place + ahead) {
                 for member in next.members.as_flattened() {
                     prefetch(&self.grains.motion, *member);
-                    prefetch(&self.grains.spin, *member);
+                    if turn {
+                        prefetch(&self.grains.spin, *member);
+                    }
                 }
                 self.sink.expect(next);
             }

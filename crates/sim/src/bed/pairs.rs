@@ -121,12 +121,13 @@ impl PairList {
         sorted
     }
 
-    /// The same pairs sorted by how they stand; whoever is dormant must remember nothing.
-    pub fn divided(&self, standing: impl Fn([u32; 2]) -> Standing) -> Self {
+    /// The same pairs sorted by how they stand, told in their order; whoever is dormant must remember
+    /// nothing.
+    pub fn divided(&self, standing: &[Standing]) -> Self {
         // Where each pair was: its block and lane.
         let mut parts: [(Vec<[u32; 2]>, Vec<u32>); 3] = Default::default();
-        for (block, lane, pair) in self.pairs() {
-            let (pairs, slots) = &mut parts[standing(pair) as usize];
+        for ((block, lane, pair), standing) in self.pairs().zip(standing) {
+            let (pairs, slots) = &mut parts[*standing as usize];
             pairs.push(pair);
             slots.push((block * LANES + lane) as u32);
         }

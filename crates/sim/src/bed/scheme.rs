@@ -58,6 +58,7 @@ impl Memory {
 impl<I: Integrator> Scheme<I> {
     /// Begins where the bed is.
     pub fn start(bed: &mut Bed) -> Self {
+        bed.join_lists();
         let bodies = bodies(bed);
         let mut memory = Memory::of(bed);
         memory.listed.clone_from(&bodies.position);

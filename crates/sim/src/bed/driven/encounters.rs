@@ -7,7 +7,7 @@
 use crate::bed::contacts::Interaction;
 use crate::bed::pairs::{Block, Standing};
 use crate::bed::walls::Walls;
-use crate::math::{Vec3, Vector};
+use crate::math::{Number, Vec3, Vector};
 use crate::neighbours::{LANES, Record, Wide, WideWork};
 
 /// For the rounding of all that follows [-].
@@ -36,7 +36,7 @@ impl Encounters<'_> {
         for axis in 0..3 {
             apart[axis] = a[axis] - b[axis];
             if period[axis] > 0.0 {
-                apart[axis] -= period[axis] * (apart[axis] / period[axis]).round();
+                apart[axis] = apart[axis] - period[axis] * Number::round(apart[axis] / period[axis]);
             }
         }
         let gap = Vec3::from(apart).norm() - (a[3] + b[3]);
@@ -77,6 +77,8 @@ pub struct Suspects<'a> {
     /// Greatest change of velocity of all grains [m/s].
     pub change: f64,
     pub blocks: &'a [Block],
+    /// The first block to look at.
+    pub first: usize,
     pub found: &'a mut Vec<u32>,
 }
 
@@ -98,7 +100,7 @@ impl WideWork for Suspects<'_> {
         };
         let time = W::splat(span);
         let changes = W::splat((2.0 * self.change * span).max(floor) + reach);
-        for (place, block) in self.blocks.iter().enumerate() {
+        for (place, block) in self.blocks.iter().enumerate().skip(self.first) {
             let [first, second] = &block.members;
             let a = W::gather(motion, first);
             let b = W::gather(motion, second);

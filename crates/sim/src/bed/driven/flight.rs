@@ -5,53 +5,98 @@
 //! φ(x) = (1 − e^{−x})/x,   ψ(x) = (1 − φ(x))/x
 //! ```
 
-use crate::bed::motion::mean_decay;
+use std::f64::consts::PI;
+
+use super::Drive;
+use crate::bed::motion::{Surroundings, mean_decay};
 use crate::math::{Number, Vector};
 use crate::neighbours::{LANES, Record, Wide, WideWork};
 
 /// Below this ψ is a series [-].
 const NEAR: f64 = 0.5;
+/// Drives written at a time before they are read eight by eight: who reads at once waits for the writes.
+const TAKEN: usize = 64;
 
-/// Flies all grains through a span on paper.
+/// Flies grains through a span on paper.
 pub struct Flights<'a> {
+    pub surroundings: &'a Surroundings,
     pub motion: &'a [Record],
-    /// c_x, c_y, c_z [m/s²], λ [1/s], and more.
-    pub launches: &'a [Record],
-    /// Where they arrive: x, y, z [m], greatest change of velocity [m/s], v_x, v_y, v_z [m/s], spare.
+    /// Numbers of the grains, by which the drives go.
+    pub number: &'a [u32],
+    pub drives: &'a [Drive],
+    /// What they fly by: c_x, c_y, c_z [m/s²], λ [1/s], four zeros.
+    pub launches: &'a mut [Record],
+    /// Where they arrive: x, y, z [m], change of velocity [m/s], v_x, v_y, v_z [m/s], change of v_z by
+    /// weight and buoyancy [m/s].
     pub flights: &'a mut [Record],
     /// T [s].
     pub span: f64,
 }
 
-/// Returns the greatest speed [m/s]: infinite where a flight leads nowhere.
+/// Returns the greatest speed and the greatest change of velocity [m/s]: infinite speed where a flight
+/// leads nowhere.
 impl WideWork for Flights<'_> {
-    type Output = f64;
+    type Output = [f64; 2];
 
     #[inline(always)]
-    fn run<W: Wide>(self) -> f64 {
-        let mut fastest = W::splat(0.0);
+    fn run<W: Wide>(self) -> [f64; 2] {
+        let (mut fastest, mut change) = (W::splat(0.0), W::splat(0.0));
         let count = self.flights.len();
-        for (chunk, flights) in self.flights.chunks_mut(LANES).enumerate() {
-            let mut members = [0; LANES];
-            for (lane, member) in members.iter_mut().enumerate() {
-                *member = (chunk * LANES + lane).min(count - 1) as u32;
+        let mut drives = [Record([0.0; 8]); TAKEN];
+        for first in (0..count).step_by(TAKEN) {
+            let last = (first + TAKEN).min(count);
+            for (record, number) in drives.iter_mut().zip(&self.number[first..last]) {
+                let Drive { drag, flow, force } = &self.drives[*number as usize];
+                *record = Record([force.x, force.y, force.z, *drag, flow.x, flow.y, flow.z, 0.0]);
             }
-            let (arrived, squared) = fly(
-                W::gather(self.motion, &members),
-                W::gather(self.launches, &members),
-                self.span,
-            );
-            flights.copy_from_slice(&W::records(arrived)[..flights.len()]);
-            let sound = squared.below(W::splat(f64::INFINITY));
-            fastest = W::select(sound, fastest.max(squared), W::splat(f64::INFINITY));
+            for start in (first..last).step_by(LANES) {
+                let end = (start + LANES).min(last);
+                let [mut members, mut rows] = [[0; LANES]; 2];
+                for lane in 0..LANES {
+                    // Empty lanes do what the last grain does.
+                    let grain = (start + lane).min(end - 1);
+                    (members[lane], rows[lane]) = (grain as u32, (grain - first) as u32);
+                }
+                let motion = W::gather(self.motion, &members);
+                let launch = launch(self.surroundings, &motion, W::gather(&drives, &rows));
+                let (arrived, squared) = fly(&motion, &launch, self.span);
+                let sound = squared.below(W::splat(f64::INFINITY));
+                fastest = W::select(sound, fastest.max(squared), W::splat(f64::INFINITY));
+                change = change.max(arrived[3]);
+                let [cx, cy, cz, rate, own] = launch;
+                let zero = W::splat(0.0);
+                let launch = [cx, cy, cz, rate, zero, zero, zero, zero];
+                let [x, y, z, changed, vx, vy, vz] = arrived;
+                let arrived = [x, y, z, changed, vx, vy, vz, own * W::splat(self.span)];
+                self.launches[start..end].copy_from_slice(&W::records(launch)[..end - start]);
+                self.flights[start..end].copy_from_slice(&W::records(arrived)[..end - start]);
+            }
         }
-        fastest.lanes().into_iter().fold(0.0, f64::max).sqrt()
+        let greatest = |lanes: W| lanes.lanes().into_iter().fold(0.0, f64::max);
+        [greatest(fastest).sqrt(), greatest(change)]
     }
+}
+
+/// c, λ and what weight and buoyancy give to c_z.
+#[inline(always)]
+fn launch<W: Wide>(surroundings: &Surroundings, motion: &[W; 8], drive: [W; 8]) -> [W; 5] {
+    let (radius, inverse_mass) = (motion[3], motion[7]);
+    let rate = drive[3] * inverse_mass;
+    let displaced = W::splat(4.0 / 3.0 * PI * surroundings.fluid_density * surroundings.gravity);
+    let buoyancy = displaced * radius * radius * radius * inverse_mass;
+    let own = buoyancy - W::splat(surroundings.gravity);
+    [
+        drive[0] * inverse_mass + drive[4] * rate,
+        drive[1] * inverse_mass + drive[5] * rate,
+        drive[2] * inverse_mass + drive[6] * rate + own,
+        rate,
+        own,
+    ]
 }
 
 /// Where eight grains arrive, and the greatest of their speeds squared.
 #[inline(always)]
-fn fly<W: Wide>(motion: [W; 8], launch: [W; 8], span: f64) -> ([W; 8], W) {
+fn fly<W: Wide>(motion: &[W; 8], launch: &[W; 5], span: f64) -> ([W; 7], W) {
     let time = W::splat(span);
     let velocity = Vector::new(motion[4], motion[5], motion[6]);
     let rate = launch[3];
@@ -69,7 +114,6 @@ fn fly<W: Wide>(motion: [W; 8], launch: [W; 8], span: f64) -> ([W; 8], W) {
         arrival.x,
         arrival.y,
         arrival.z,
-        W::splat(0.0),
     ];
     let squared = velocity.norm_squared().max(arrival.norm_squared());
     (flight, squared + nothing)

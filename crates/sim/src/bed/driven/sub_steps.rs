@@ -19,6 +19,8 @@ pub struct KickSome<'a> {
     /// Places of those who move, in eights.
     pub some: &'a [[u32; LANES]],
     pub stride: Stride,
+    /// Whether anything turns them.
+    pub turn: bool,
 }
 
 /// Returns the greatest speed [m/s]: infinite where a grain is beyond the limit or has no number for
@@ -31,21 +33,26 @@ impl WideWork for KickSome<'_> {
         let mut fastest = W::splat(0.0);
         let limit = W::splat(self.stride.limit * self.stride.limit);
         for places in self.some {
+            let forces = W::gather(self.forces, places);
             let state = [
                 W::gather(self.motion, places),
-                W::gather(self.spin, places),
-                W::gather(self.forces, places),
+                forces,
                 W::gather(self.launches, places),
             ];
-            let (moved, squared) = eight(&self.stride, state);
-            let [motion, spin, launches] = [W::records(moved[0]), W::records(moved[1]), W::records(moved[2])];
+            let (motion, launches, squared) = kick(&self.stride, state);
+            let (motion, launches) = (W::records(motion), W::records(launches));
             for (lane, &place) in places.iter().enumerate() {
                 let place = place as usize;
                 self.motion[place] = motion[lane];
-                self.spin[place] = spin[lane];
                 self.launches[place] = launches[lane];
                 if self.stride.drift > 0.0 {
                     self.forces[place] = Record([0.0; 8]);
+                }
+            }
+            if self.turn {
+                let spin = W::records(turn(&self.stride, W::gather(self.spin, places), forces));
+                for (lane, &place) in places.iter().enumerate() {
+                    self.spin[place as usize] = spin[lane];
                 }
             }
             let sound = squared.below(limit);
@@ -55,9 +62,9 @@ impl WideWork for KickSome<'_> {
     }
 }
 
-/// New motion, spin and launches of eight grains, and their speeds squared.
+/// New motion and launches of eight grains, and their speeds squared.
 #[inline(always)]
-fn eight<W: Wide>(stride: &Stride, [motion, spin, forces, launch]: [[W; 8]; 4]) -> ([[W; 8]; 3], W) {
+fn kick<W: Wide>(stride: &Stride, [motion, forces, launch]: [[W; 8]; 3]) -> ([W; 8], [W; 8], W) {
     let kick = W::splat(stride.kick);
     let [x, y, z, radius, vx, vy, vz, inverse_mass] = motion;
     let [cx, cy, cz, rate, sx, sy, sz, changed] = launch;
@@ -65,31 +72,41 @@ fn eight<W: Wide>(stride: &Stride, [motion, spin, forces, launch]: [[W; 8]; 4]) 
     let force = Vector::new(forces[0], forces[1], forces[2]);
     let push = force * inverse_mass + (Vector::new(cx, cy, cz) - velocity * rate);
     let gain = push * (kick * mean_decay(rate * kick));
-    let velocity = velocity + gain;
+    let v = velocity + gain;
     let given = Vector::new(sx, sy, sz) + force * kick;
-    let position = Vector::new(x, y, z) + velocity * W::splat(stride.drift);
-    let turn = spin[3] * kick;
+    let position = Vector::new(x, y, z) + v * W::splat(stride.drift);
+    // Zero, but no number where a coordinate is none or infinite.
     let nothing = (position.x + position.y + position.z) * W::splat(0.0);
-    let motion = [
-        position.x,
-        position.y,
-        position.z,
-        radius,
-        velocity.x,
-        velocity.y,
-        velocity.z,
-        inverse_mass,
-    ];
-    let spin = [
-        spin[0] + forces[4] * turn,
-        spin[1] + forces[5] * turn,
-        spin[2] + forces[6] * turn,
-        spin[3],
-        spin[4],
-        spin[5],
-        spin[6],
-        spin[7],
-    ];
-    let launch = [cx, cy, cz, rate, given.x, given.y, given.z, changed + gain.norm()];
-    ([motion, spin, launch], velocity.norm_squared() + nothing)
+    let changed = changed + gain.norm();
+    (
+        [
+            position.x,
+            position.y,
+            position.z,
+            radius,
+            v.x,
+            v.y,
+            v.z,
+            inverse_mass,
+        ],
+        [cx, cy, cz, rate, given.x, given.y, given.z, changed],
+        v.norm_squared() + nothing,
+    )
+}
+
+/// New spin of eight grains.
+#[inline(always)]
+fn turn<W: Wide>(stride: &Stride, spin: [W; 8], forces: [W; 8]) -> [W; 8] {
+    let [wx, wy, wz, inverse_inertia, porosity, fluid, neighbours, awake] = spin;
+    let turn = inverse_inertia * W::splat(stride.kick);
+    [
+        wx + forces[4] * turn,
+        wy + forces[5] * turn,
+        wz + forces[6] * turn,
+        inverse_inertia,
+        porosity,
+        fluid,
+        neighbours,
+        awake,
+    ]
 }
