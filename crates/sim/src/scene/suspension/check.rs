@@ -206,9 +206,9 @@ fn scheme(fluid: &SphFluid, list: &mut List) -> bool {
         "write `steps_per_contact` beside `contact`",
     );
     let lengths = fluid.scheme.coupling_lengths;
-    if !matches!(lengths, CouplingLengths::PerClass | CouplingLengths::Smallest) {
+    if let CouplingLengths::DoubleSmoothing | CouplingLengths::DoubleSmoothingLiteral = lengths {
         let message = "double smoothing is known of porosity blocks only".to_owned();
-        let help = "write `coupling_lengths: per_class` or `smallest`";
+        let help = "write `coupling_lengths: per_class`";
         list.add("fluid.sph.scheme.coupling_lengths", message, help);
         sound = false;
     }

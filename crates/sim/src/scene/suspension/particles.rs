@@ -26,6 +26,7 @@ impl Particles<'_> {
     pub fn porosity_length(&self, diameter: f64) -> f64 {
         match self.sph.scheme.coupling_lengths {
             CouplingLengths::Smallest => POROSITY_LENGTH * self.scene.smallest_diameter(),
+            CouplingLengths::Largest => POROSITY_LENGTH * self.scene.largest_diameter(),
             _ => POROSITY_LENGTH * diameter,
         }
     }
