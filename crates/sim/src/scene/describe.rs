@@ -2,13 +2,13 @@
 
 use super::setup::{Settling, isolated_speed};
 use super::{
-    Coupling, CouplingLengths, Description, Drag, Fluid, Hydrostatics, PorosityPath, Scene, SelfDisturbance,
-    SharpeningChoice, Slip, SoundSpeed, SphFluid, Start, StressDensity,
+    Coupling, CouplingLengths, Description, Drag, Fluid, Hydrostatics, PorosityPath, Scene, Scheme,
+    SelfDisturbance, SharpeningChoice, Slip, SoundSpeed, SphFluid, Start, StressDensity,
 };
 use crate::fluid::FluidParticles;
 
 /// Cost of a fluid–grain pair per step over that of a fluid particle's whole row.
-const PAIR_COST: f64 = 0.011;
+pub(super) const PAIR_COST: f64 = 0.011;
 
 /// The scene in words. Meaningful only for a scene without faults.
 pub fn describe(scene: &Scene) -> Description {
@@ -82,8 +82,9 @@ fn numbers(settling: &Settling, dt: f64, description: &mut Description) {
     }
 }
 
-fn grains_in_words(settling: &Settling, description: &mut Description) {
-    let law = match settling.drag {
+/// A drag law in words.
+pub(super) fn law_in_words(drag: Drag) -> &'static str {
+    match drag {
         Drag::Stokes => "Stokes drag",
         Drag::Dallavalle => "Dallavalle drag",
         Drag::SchillerNaumann => "Schiller–Naumann drag",
@@ -91,7 +92,11 @@ fn grains_in_words(settling: &Settling, description: &mut Description) {
         Drag::CoulsonRichardson => "Coulson–Richardson drag",
         Drag::Beetstra => "Beetstra drag",
         Drag::BeetstraCello => "Beetstra drag, shared out among the sizes after Cello",
-    };
+    }
+}
+
+fn grains_in_words(settling: &Settling, description: &mut Description) {
+    let law = law_in_words(settling.drag);
     description.active.push(format!(
         "{law}, on the superficial slip, integrated exactly over each step"
     ));
@@ -215,19 +220,53 @@ fn particle_fluid(settling: &Settling, sph: &SphFluid, dt: f64, description: &mu
     description.memory = FluidParticles::memory(description.fluid_particles as usize) + weights as u64;
 }
 
-fn choices(settling: &Settling, sph: &SphFluid, description: &mut Description) {
-    let scheme = &sph.scheme;
-    let mut add = |holds: bool, active: &str, left_out: &str| {
+/// Adds what is active and what is left out.
+struct Choices<'a>(&'a mut Description);
+
+impl Choices<'_> {
+    fn add(&mut self, holds: bool, active: &str, left_out: &str) {
         let list = if holds {
-            &mut description.active
+            &mut self.0.active
         } else {
-            &mut description.left_out
+            &mut self.0.left_out
         };
         let text = if holds { active } else { left_out };
         if !text.is_empty() {
             list.push(text.to_owned());
         }
-    };
+    }
+}
+
+fn choices(settling: &Settling, sph: &SphFluid, description: &mut Description) {
+    scheme_in_words(&sph.scheme, description);
+    let mut choices = Choices(description);
+    let two_way = settling
+        .sphere
+        .is_none_or(|sphere| sphere.coupling == Coupling::TwoWay);
+    choices.add(
+        two_way,
+        "reaction of the grains on the fluid, with the weights they sample it with",
+        "reaction on the fluid: one-way coupling, and with its weight split off the fluid is not stepped",
+    );
+    let corrected = settling
+        .sphere
+        .is_some_and(|sphere| sphere.self_disturbance == SelfDisturbance::Corrected);
+    choices.add(
+        corrected && two_way,
+        "self-induced flow of the grain taken out of what it samples",
+        "correction for self-induced flow",
+    );
+    choices.add(
+        sph.scheme.sharpening == SharpeningChoice::Conservative && settling.block.is_some(),
+        "conservative sharpening of porosity and exchange kernels",
+        "kernel sharpening: a single grain has no edge to keep sharp",
+    );
+}
+
+/// The scheme's choices that do not depend on the grains.
+pub(super) fn scheme_in_words(scheme: &Scheme, description: &mut Description) {
+    let mut choices = Choices(description);
+    let mut add = |holds, active: &str, left_out: &str| choices.add(holds, active, left_out);
     add(
         scheme.hydrostatics == Hydrostatics::Split,
         "hydrostatic pressure carried analytically; the equation of state yields the excess",
@@ -238,31 +277,10 @@ fn choices(settling: &Settling, sph: &SphFluid, description: &mut Description) {
         "artificial viscosity, always on",
         "artificial viscosity: compression is damped by a bulk viscosity that vanishes in a steady state",
     );
-    let two_way = settling
-        .sphere
-        .is_none_or(|sphere| sphere.coupling == Coupling::TwoWay);
-    add(
-        two_way,
-        "reaction of the grains on the fluid, with the weights they sample it with",
-        "reaction on the fluid: one-way coupling, and with its weight split off the fluid is not stepped",
-    );
-    let corrected = settling
-        .sphere
-        .is_some_and(|sphere| sphere.self_disturbance == SelfDisturbance::Corrected);
-    add(
-        corrected && two_way,
-        "self-induced flow of the grain taken out of what it samples",
-        "correction for self-induced flow",
-    );
     add(
         scheme.porosity == PorosityPath::OnePass,
         "",
         "one-pass porosity: sampled from the fluid, twice smoothed",
-    );
-    add(
-        scheme.sharpening == SharpeningChoice::Conservative && settling.block.is_some(),
-        "conservative sharpening of porosity and exchange kernels",
-        "kernel sharpening: a single grain has no edge to keep sharp",
     );
     add(
         scheme.slip == Slip::Superficial,

@@ -6,7 +6,7 @@
 //! answers the fluid:
 //!
 //! ```text
-//! u′ = u + ½Δt (a + r − B (u − u_r))/(1 + ½Δt B),   B = ε Σ_i w β_i/m
+//! u′ = u + ½Δt (a + r − B (u − u_r))/(1 + ½Δt B),   B = Σ_i w β_i/m
 //! ```
 //!
 //! r is the reaction to the velocity u_r in the last step, a all other acceleration. A steady state is free
@@ -65,6 +65,8 @@ pub struct Simulation<L, G = RigidGrains> {
     /// particle that the last reaction answers [m/s].
     stopping: Vec<f64>,
     answered: Vec<Vec3>,
+    /// Mean velocity of the solids around each grain at the last refresh [m/s].
+    companions: Vec<Vec3>,
 }
 
 /// Porosity below which the drag law is not asked.
@@ -100,6 +102,7 @@ impl<L: PolydisperseLaw, G: GrainSet> Simulation<L, G> {
             reactions: vec![[0.0; 4]; particles],
             stopping: vec![0.0; particles],
             answered: vec![Vec3::zeros(); particles],
+            companions: vec![Vec3::zeros(); count],
         };
         simulation.refresh_weights(0.0);
         simulation.carry_porosity();
@@ -153,9 +156,24 @@ impl<L: PolydisperseLaw, G: GrainSet> Simulation<L, G> {
         if let GrainPorosity::OnePass(sums) = &mut self.rules.porosity {
             sums.refresh(&self.position);
         }
+        if self.rules.slip == SlipRule::FreeMixtureFlux {
+            self.meet_companions();
+        }
         self.refreshed_velocity = self.mean_velocity();
         self.since_refresh = 0.0;
         self.steps_since_refresh = 0;
+    }
+
+    /// Samples the mean velocity of the solids at each grain.
+    fn meet_companions(&mut self) {
+        let solids = &self.exchange.solids;
+        for ((field, flux), fraction) in self.fields.iter_mut().zip(&solids.flux).zip(&solids.fraction) {
+            *field = Field::new(*flux, Vec3::zeros(), *fraction, 0.0);
+        }
+        for (grain, companions) in self.companions.iter_mut().enumerate() {
+            let sample = self.exchange.sample(grain, &self.fields);
+            *companions = sample.velocity() / sample.porosity().max(f64::MIN_POSITIVE);
+        }
     }
 
     /// Mean velocity of the grains [m/s].

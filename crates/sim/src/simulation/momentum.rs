@@ -31,7 +31,7 @@ impl<L: PolydisperseLaw, G: GrainSet> Simulation<L, G> {
     }
 
     fn write_fields(&mut self, ahead: f64) {
-        let flux = self.rules.slip == SlipRule::MixtureFlux;
+        let flux = matches!(self.rules.slip, SlipRule::MixtureFlux | SlipRule::FreeMixtureFlux);
         let solids = &self.exchange.solids;
         for a in 0..self.fluid.len() {
             let porosity = self.fluid.porosity[a];
@@ -95,11 +95,19 @@ impl<L: PolydisperseLaw, G: GrainSet> Simulation<L, G> {
             states: &self.states,
             coefficients: &mut self.coefficients,
         });
-        let scaled = self.rules.slip == SlipRule::PorosityTimesInterstitial;
+        let scaled = self.asks_interstitial();
         for (grain, force) in self.forces.iter_mut().enumerate() {
             let share = if scaled { self.states[grain].porosity } else { 1.0 };
             force.drag = share * self.coefficients[grain];
         }
+    }
+
+    /// Whether the flow that a grain sees is the interstitial one, of whose slip ε is the superficial part.
+    fn asks_interstitial(&self) -> bool {
+        matches!(
+            self.rules.slip,
+            SlipRule::PorosityTimesInterstitial | SlipRule::FreeMixtureFlux
+        )
     }
 
     fn force_but_drag(&self, grain: usize, sample: &Field, own: OwnFlow) -> FluidForce {
@@ -124,7 +132,11 @@ impl<L: PolydisperseLaw, G: GrainSet> Simulation<L, G> {
         };
         self.porosity_clips += (raw < POROSITY_FLOOR) as u64;
         let porosity = raw.clamp(POROSITY_FLOOR, 1.0);
-        let scaled = self.rules.slip == SlipRule::PorosityTimesInterstitial;
+        if self.rules.slip == SlipRule::FreeMixtureFlux {
+            let flow = &mut self.forces[grain].flow;
+            *flow = (*flow - self.companions[grain] * (1.0 - porosity)) / porosity;
+        }
+        let scaled = self.asks_interstitial();
         let share = if scaled { porosity } else { 1.0 };
         let diameter = self.exchange.size(grain).diameter;
         DragState {
@@ -151,18 +163,17 @@ impl<L: PolydisperseLaw, G: GrainSet> Simulation<L, G> {
         self.reactions.fill([0.0; 4]);
         for &grain in self.exchange.order() {
             let given = -self.impulses[grain as usize] / dt;
-            let drag = self.forces[grain as usize].drag;
+            let drag = self.coefficients[grain as usize];
             self.exchange.spread(
                 grain as usize,
                 [given.x, given.y, given.z, drag],
                 &mut self.reactions,
             );
         }
-        let flux = self.rules.slip == SlipRule::MixtureFlux;
         for (a, sums) in self.reactions.iter().enumerate() {
-            let (porosity, mass) = (self.fluid.porosity[a], self.fluid.mass[a]);
+            let mass = self.fluid.mass[a];
             self.fluid.reaction[a] = Vec3::new(sums[0], sums[1], sums[2]) / mass;
-            self.stopping[a] = sums[3] * if flux { porosity } else { 1.0 } / mass;
+            self.stopping[a] = sums[3] / mass;
         }
     }
 
@@ -171,10 +182,11 @@ impl<L: PolydisperseLaw, G: GrainSet> Simulation<L, G> {
         let report = &mut self.report;
         (report.drag, report.slip, report.stress) = (0.0, 0.0, 0.0);
         let mut handed = Vec3::zeros();
-        for (force, impulse) in self.forces.iter().zip(&self.impulses) {
+        for ((force, impulse), coefficient) in self.forces.iter().zip(&self.impulses).zip(&self.coefficients)
+        {
             let drag = impulse.z / dt - force.stress.z;
             report.drag += drag / count;
-            report.slip += per(drag, force.drag) / count;
+            report.slip += per(drag, *coefficient) / count;
             report.stress += force.stress.z / count;
             handed += impulse;
         }
@@ -190,7 +202,7 @@ impl<L: PolydisperseLaw, G: GrainSet> Simulation<L, G> {
         }
         let force = &self.forces[grain];
         let drag = self.impulses[grain].z / self.exchanged_over - force.stress.z;
-        (per(drag, force.drag), drag)
+        (per(drag, self.coefficients[grain]), drag)
     }
 
     /// Porosity [-] each grain's drag was asked at in the last step.

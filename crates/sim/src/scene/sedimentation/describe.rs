@@ -19,7 +19,7 @@ const MEMORY: f64 = 1e6;
 /// Memory of a grain: its state, contacts and row of the list of pairs [bytes].
 const GRAIN_MEMORY: f64 = 1000.0;
 /// Memory of a grain in a snapshot [bytes]: eleven columns, twice while they are handed over.
-const ROW_MEMORY: f64 = 11.0 * 8.0 * 2.0;
+pub const ROW_MEMORY: f64 = 11.0 * 8.0 * 2.0;
 
 pub fn describe(scene: &Sedimentation) -> Description {
     let limits = limits(scene);

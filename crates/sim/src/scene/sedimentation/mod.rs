@@ -24,11 +24,11 @@ pub use model::{
 };
 
 pub(super) use check::{check, class_path, time_step};
-pub(super) use describe::describe;
+pub(super) use describe::{ROW_MEMORY, describe};
 pub(super) use observables::observables;
 pub(super) use run::run;
 pub(super) use start::start;
-pub(super) use step::limits;
+pub(super) use step::{Limits, limits};
 
 #[cfg(test)]
 mod tests;

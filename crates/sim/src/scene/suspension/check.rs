@@ -1,9 +1,10 @@
 //! What of a suspension cannot be simulated.
 
 use super::model::{SuspendingFluid, Suspension};
+use super::particles::Particles;
 use crate::scene::check::{self, List, millimetres, particle_fluid, threads_and_snapshots};
 use crate::scene::sedimentation::{class_path, limits, time_step};
-use crate::scene::{Drag, Scheme, SphFluid};
+use crate::scene::{CouplingLengths, Drag, Scheme, SphFluid};
 
 /// Least porosity that grains are spread evenly at [-].
 const LEAST_POROSITY: f64 = 0.6;
@@ -19,6 +20,9 @@ pub fn check(scene: &Suspension, list: &mut List) {
     if let (true, SuspendingFluid::Sph(fluid)) = (sound, &scene.fluid) {
         sound &= particle_fluid(fluid, scene.smallest_diameter(), &scene.column, list);
         sound &= scheme(fluid, list);
+        if sound {
+            fluid_step(scene, fluid, list);
+        }
     }
     if sound {
         let bed = scene.as_sedimentation();
@@ -168,6 +172,19 @@ fn sauter(scene: &Suspension, list: &mut List) -> bool {
     !mixed
 }
 
+/// Refuses a fluid step beyond the longest safe one.
+fn fluid_step(scene: &Suspension, fluid: &SphFluid, list: &mut List) {
+    let (limit, name) = Particles { scene, sph: fluid }.step_limit();
+    match fluid.scheme.time_step {
+        Some(step) if step > limit && !fluid.scheme.unsafe_time_step => {
+            let message = format!("`time_step` is {step:.3e} s, its limit {name} is {limit:.3e} s");
+            let help = "stay below the limit, leave it to `automatic`, or set `unsafe_time_step: true`";
+            list.add("fluid.sph.scheme.time_step", message, help);
+        }
+        _ => {}
+    }
+}
+
 /// What the scene says itself must not be said in the scheme.
 fn scheme(fluid: &SphFluid, list: &mut List) -> bool {
     let usual = Scheme::for_random_grains();
@@ -189,5 +206,12 @@ fn scheme(fluid: &SphFluid, list: &mut List) -> bool {
         fluid.scheme.steps_per_contact != usual.steps_per_contact,
         "write `steps_per_contact` beside `contact`",
     );
+    let lengths = fluid.scheme.coupling_lengths;
+    if let CouplingLengths::DoubleSmoothing | CouplingLengths::DoubleSmoothingLiteral = lengths {
+        let message = "double smoothing is known of porosity blocks only".to_owned();
+        let help = "write `coupling_lengths: per_class`";
+        list.add("fluid.sph.scheme.coupling_lengths", message, help);
+        sound = false;
+    }
     sound
 }

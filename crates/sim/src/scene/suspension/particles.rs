@@ -2,7 +2,7 @@
 
 use super::model::Suspension;
 use crate::scene::setup::{COURANT, POROSITY_LENGTH};
-use crate::scene::{Hydrostatics, SoundSpeed, SphFluid};
+use crate::scene::{CouplingLengths, Hydrostatics, SoundSpeed, SphFluid};
 
 /// Density change of the fluid under the weight that the grains put on it [-].
 const COMPRESSION: f64 = 0.01;
@@ -24,12 +24,16 @@ impl Particles<'_> {
 
     /// Porosity length of grains of a diameter [m].
     pub fn porosity_length(&self, diameter: f64) -> f64 {
-        POROSITY_LENGTH * diameter
+        match self.sph.scheme.coupling_lengths {
+            CouplingLengths::Smallest => POROSITY_LENGTH * self.scene.smallest_diameter(),
+            CouplingLengths::Largest => POROSITY_LENGTH * self.scene.largest_diameter(),
+            _ => POROSITY_LENGTH * diameter,
+        }
     }
 
     /// Exchange length of grains of a diameter [m].
     pub fn exchange_length(&self, diameter: f64) -> f64 {
-        (POROSITY_LENGTH * diameter).max(1.2 * self.spacing())
+        self.porosity_length(diameter).max(1.2 * self.spacing())
     }
 
     /// Weight less buoyancy of the solids over their volume [N/m³].

@@ -15,7 +15,7 @@ use crate::scene::divergence::leapt;
 use crate::scene::run_sph::{carried_pressure, damp, fastest, not_finite, numerics, slip_rule};
 use crate::scene::sedimentation::start;
 use crate::scene::{Hydrostatics, PorosityPath, SharpeningChoice, SphFluid, Start, StressDensity};
-use crate::simulation::{CouplingRules, FreeGrains, GrainPorosity, GrainSet, Simulation};
+use crate::simulation::{CouplingRules, FreeGrains, GrainPorosity, GrainSet, Simulation, SlipRule};
 
 /// Fluid steps between refreshes of the weights.
 const REFRESH_INTERVAL: u64 = 8;
@@ -179,7 +179,10 @@ fn rules<L: PolydisperseLaw>(
     CouplingRules {
         law,
         fluid: [medium.density, medium.viscosity],
-        slip: slip_rule(particles.sph, false),
+        slip: match slip_rule(particles.sph, false) {
+            SlipRule::MixtureFlux => SlipRule::FreeMixtureFlux,
+            published => published,
+        },
         porosity: match scheme.porosity {
             PorosityPath::TwoPass => GrainPorosity::Sampled,
             PorosityPath::OnePass => GrainPorosity::OnePass(PorositySums::new(

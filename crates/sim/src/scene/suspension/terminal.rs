@@ -28,10 +28,22 @@ impl Suspension {
         sum(3) / sum(2)
     }
 
-    /// Settling speed of a class [m/s], downward positive, amid the whole suspension at a porosity: in a
-    /// closed column it is the superficial slip at which drag carries the weight over that of the mixture,
-    /// V (ρ_i − ρ_mix) g. Negative for a class that the others push up.
+    /// Settling speed of a class [m/s], downward positive, amid the whole suspension at a porosity in a
+    /// closed column: v_i = (w_i − Σ φ_k w_k)/ε with the slips w, since no volume flows in total. Negative for
+    /// a class that the others push up.
     pub fn settling_speed(&self, class: &SuspendedClass, porosity: f64) -> f64 {
+        let (mut flux, mut volume) = (0.0, 0.0);
+        for other in &self.classes {
+            let own = other.share * other.diameter.powi(3);
+            volume += own;
+            flux += own * self.slip(other, porosity);
+        }
+        (self.slip(class, porosity) - (1.0 - porosity) * flux / volume) / porosity
+    }
+
+    /// Superficial slip ε (u − v) of a class [m/s], upward positive, at which drag carries its weight over
+    /// that of the mixture, V (ρ_i − ρ_mix) g.
+    pub fn slip(&self, class: &SuspendedClass, porosity: f64) -> f64 {
         let medium = self.fluid.medium();
         let mixture = porosity * medium.density + (1.0 - porosity) * self.solids_density();
         let volume = sphere(class).mass / class.density;
