@@ -11,6 +11,10 @@ use crate::scene::{Dimensions, Floor, Sides};
 const END: f64 = 0.1;
 /// Growth over that share, over the thickness, below which the cake counts as stopped [-].
 const STOPPED: f64 = 0.02;
+/// Between these shares of the deposit at the end it grows evenly [-].
+const GROWING: [f64; 2] = [0.2, 0.8];
+/// Share of the flux at the start below which it has begun to fall [-].
+const FALLEN: f64 = 0.98;
 /// Share of the grains fed that must be in flight then [-].
 const IN_FLIGHT: f64 = 0.01;
 
@@ -166,12 +170,26 @@ fn of_grains(watch: &Watch, add: Add) {
     add("passed", "1", row.passed as f64);
     let errors = watch.rows.iter().map(|row| row.cake.volume_error);
     add("volume_error", "1", errors.fold(0.0, f64::max));
+    let errors = watch.rows.iter().map(|row| row.cake.solids_error);
+    add("cake_solids_error", "1", errors.fold(0.0, f64::max));
     add("settled_share", "1", row.measures.settled_share);
+    add("feed_depth", "1", watch.feed_depth());
 }
 
 fn of_growth(watch: &Watch, add: Add) {
-    let begun = watch.rows.iter().find(|row| row.cake.deposited > 0);
-    add("first_deposit_time", "s", begun.map_or(f64::NAN, |row| row.time));
+    add(
+        "first_deposit_time",
+        "s",
+        begun(watch).map_or(f64::NAN, |row| row.time),
+    );
+    add("deposit_onset", "s", deposit_onset(watch));
+    let fallen = |row: &&Row| row.flux < FALLEN * watch.operation.flux;
+    let fallen = watch.rows.iter().find(fallen);
+    add(
+        "flux_fall_time",
+        "s",
+        fallen.map_or(watch.scene.bed.duration, |row| row.time),
+    );
     let total = watch.scene.bed.grains() as usize;
     let under_way = |row: &Row| row.cake.in_flight > 0 || row.fed < total;
     let unsettled = watch.rows.iter().rposition(under_way);
@@ -215,7 +233,9 @@ fn series(watch: &Watch) -> Table {
         column("cake_resistance", "1/m", &|row| row.cake.resistance),
         column("specific_resistance", "m/kg", &|row| row.cake.specific_resistance(area)),
         column("filtrate_volume", "m", &|row| row.filtrate),
+        column("volume_since_deposit", "m", &|row| since_deposit(watch, row).1),
         column("time_over_volume", "s/m", &|row| time_over_volume(watch, row)),
+        column("cake_solids_error", "1", &|row| row.cake.solids_error),
         column("deposited", "1", &|row| row.cake.deposited as f64),
         column("deposited_volume", "m³", &|row| row.cake.volume),
         column("deposited_mass", "kg", &|row| row.cake.mass),
@@ -242,13 +262,49 @@ fn series(watch: &Watch) -> Table {
     Table { name: "time_series", columns }
 }
 
-/// t/V [s/m], at the start what it tends to.
-fn time_over_volume(watch: &Watch, row: &Row) -> f64 {
-    if row.filtrate > 0.0 {
-        row.time / row.filtrate
-    } else {
-        1.0 / watch.operation.flux
+/// Time [s] and filtrate per area [m] since the cake began; no numbers before.
+fn since_deposit(watch: &Watch, row: &Row) -> (f64, f64) {
+    match begun(watch) {
+        Some(first) if row.time >= first.time => (row.time - first.time, row.filtrate - first.filtrate),
+        _ => (f64::NAN, f64::NAN),
     }
+}
+
+/// t/V [s/m] since the cake began.
+fn time_over_volume(watch: &Watch, row: &Row) -> f64 {
+    let (time, volume) = since_deposit(watch, row);
+    time / volume
+}
+
+/// Time [s] at which the straight line of least squares through the deposited volume, from 20 to 80 % of
+/// that at the end, begins; no number for fewer than three rows. The first grain comes before the others:
+/// they are fed into a zone of some height.
+fn deposit_onset(watch: &Watch) -> f64 {
+    let [from, to] = GROWING.map(|share| share * last(watch).cake.volume);
+    let growing = |row: &&Row| row.cake.volume > from && row.cake.volume < to;
+    let points: Vec<(f64, f64)> = watch
+        .rows
+        .iter()
+        .filter(growing)
+        .map(|row| (row.time, row.cake.volume))
+        .collect();
+    if points.len() < 3 {
+        return f64::NAN;
+    }
+    let count = points.len() as f64;
+    let time = points.iter().map(|point| point.0).sum::<f64>() / count;
+    let volume = points.iter().map(|point| point.1).sum::<f64>() / count;
+    let spread: f64 = points.iter().map(|point| (point.0 - time).powi(2)).sum();
+    let common: f64 = points
+        .iter()
+        .map(|point| (point.0 - time) * (point.1 - volume))
+        .sum();
+    time - volume * spread / common
+}
+
+/// The first row with a cake.
+fn begun<'a>(watch: &'a Watch) -> Option<&'a Row> {
+    watch.rows.iter().find(|row| row.cake.deposited > 0)
 }
 
 fn porosity_profile(watch: &Watch) -> Table {

@@ -13,7 +13,7 @@ use crate::arrangement::{self, Fault, Region};
 use crate::bed::{self, Attraction, Bed, Grain, Grains, Interaction, Listing, Porosity, Surroundings};
 use crate::cohesion::VanDerWaals;
 use crate::contact::{Body, ContactLaws, Couple};
-use crate::coupling::slices::{Measure, Slices};
+use crate::coupling::slices::Measure;
 use crate::math::{Random, Vec3};
 use crate::neighbours::Search;
 
@@ -179,7 +179,7 @@ fn porosity(scene: &Sedimentation) -> Option<Porosity> {
         GrainDrag::Beetstra | GrainDrag::BeetstraCello => false,
         _ => scene.voidage == Voidage::None,
     };
-    (closed || mixed(scene) || !alone).then(|| slices(scene, 0.0))
+    (closed || mixed(scene) || !alone).then(|| slices(scene))
 }
 
 /// Whether grains of several densities share the drag on the mixture.
@@ -189,8 +189,8 @@ fn mixed(scene: &Sedimentation) -> bool {
     differ && scene.drag != GrainDrag::None
 }
 
-/// Slices from a height [m] up.
-pub fn slices(scene: &Sedimentation, bottom: f64) -> Porosity {
+/// Slices one largest diameter high.
+pub fn slices(scene: &Sedimentation) -> Porosity {
     let viscosity = scene.fluid.medium().viscosity;
     let relaxation = scene
         .extremes()
@@ -202,12 +202,11 @@ pub fn slices(scene: &Sedimentation, bottom: f64) -> Porosity {
         SlicePorosity::Centre => (Measure::Centre, scene.container.width * scene.depth()),
         SlicePorosity::Areas => (Measure::Areas, scene.container.width),
     };
-    let height = scene.largest_diameter();
-    let closed = matches!(scene.fluid, StillFluid::Column(_));
     Porosity::new(
-        Slices::new(bottom, height, area, measure),
-        height,
-        closed,
+        scene.largest_diameter(),
+        area,
+        measure,
+        matches!(scene.fluid, StillFluid::Column(_)),
         mixed(scene),
         relaxation,
     )
