@@ -10,6 +10,7 @@
 //! ```
 
 mod sums;
+mod twice;
 
 use std::f64::consts::PI;
 
@@ -111,6 +112,10 @@ pub struct Exchange {
     /// Of the last refresh.
     pub solids: Solids,
     sizes: Vec<GrainSize>,
+    /// Share of its volume that each grain gives to the fluid [-].
+    given: Vec<f64>,
+    /// What is smoothed among the fluid once more.
+    twice: Option<twice::SecondSmoothing>,
     /// The smallest and the largest [m].
     diameters: (f64, f64),
     /// Rows of weights and candidates follow this order of the grains, cell by cell, so that
@@ -151,6 +156,8 @@ impl Exchange {
             diameters: sizes.iter().fold((f64::INFINITY, 0.0), |(low, high), size| {
                 (size.diameter.min(low), size.diameter.max(high))
             }),
+            given: vec![1.0; sizes.len()],
+            twice: None,
             sizes,
             order: Vec::new(),
             row_of: Vec::new(),
@@ -167,6 +174,26 @@ impl Exchange {
         };
         exchange.collect(fluid, position);
         exchange
+    }
+
+    /// Lets each grain give only a share [-] of its volume to the fluid.
+    pub fn giving(mut self, shares: Vec<f64>) -> Self {
+        self.given = shares;
+        self
+    }
+
+    /// Smooths what marked grains give once more among the fluid, over `length` [m].
+    pub fn smoothing_twice(mut self, marked: Vec<bool>, length: f64, fluid: &FluidParticles) -> Self {
+        self.twice = Some(twice::SecondSmoothing::new(marked, length));
+        self.collect_second(fluid);
+        self
+    }
+
+    fn collect_second(&mut self, fluid: &FluidParticles) {
+        let skin = self.skin();
+        if let Some(twice) = &mut self.twice {
+            twice.collect(fluid, &self.origins, skin);
+        }
     }
 
     /// Diameter and exchange length of a grain.
@@ -188,6 +215,9 @@ impl Exchange {
         self.weights.clear(self.candidates.len_padded());
         self.sums.clear();
         self.sums.resize(fluid.len(), Record::default());
+        if let Some(twice) = &mut self.twice {
+            twice.clear(fluid.len());
+        }
         let width = fluid.width;
         in_widest(sums::Weigh {
             exchange: self,
@@ -195,6 +225,9 @@ impl Exchange {
             velocity,
             width,
         });
+        if let Some(twice) = &self.twice {
+            twice.add_to(&mut self.sums, &self.points, &self.source_of);
+        }
         self.solids.read(&self.sums);
         self.pairs += self.weights.members() as u64;
     }
@@ -260,6 +293,7 @@ impl Exchange {
         self.fluid_anchor = fluid.position.clone();
         self.grain_anchor = position.to_vec();
         self.collections += 1;
+        self.collect_second(fluid);
     }
 
     /// All grains, cell by cell: visited in this order, neighbouring rows find their fluid particles in

@@ -10,7 +10,9 @@ pub use cells::CellGrid;
 pub(crate) use near_pairs::squared_distance;
 pub use near_pairs::{Period, Search, visit_near_pairs};
 pub use rows::{Image, LANES, Rows, images};
+#[cfg(test)]
+pub(crate) use wide::Plain;
 pub use wide::Record;
-#[cfg(target_arch = "x86_64")]
+#[cfg(all(test, target_arch = "x86_64"))]
 pub(crate) use wide::{Avx2, Avx512};
-pub(crate) use wide::{Plain, Wide, WideWork, in_widest, prefetch};
+pub(crate) use wide::{Wide, WideWork, in_widest, prefetch};

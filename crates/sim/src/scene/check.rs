@@ -1,11 +1,19 @@
 //! What cannot be simulated, found before anything runs. Paths are below the kind of the scene.
 
+use super::mixture::{self, Mixture};
+use super::sedimentation::class_path;
 use super::setup::Settling;
-use super::{ConstantPorosityBlock, Fault, Fluid, Grains, Medium, Scene, SingleSphere, SoundSpeed, SphFluid};
+use super::suspension::MOST_CLASSES;
+use super::{
+    ConstantPorosityBlock, CouplingLengths, Fault, Fluid, Medium, PorosityPath, Scene, SingleSphere,
+    SoundSpeed, SphFluid, SuspendedClass,
+};
 
 const MOST_THREADS: u32 = 64;
 /// Fewest particle spacings across a periodic column: a support of 2h must not meet its own image.
 const FEWEST_ACROSS: f64 = 6.0;
+/// Departure of the sum of the shares from one [-].
+const SHARE_ROUNDING: f64 = 1e-6;
 /// Admitted departure of a spacing that is adjusted to fit a column.
 const TOLERANCE: f64 = 0.02;
 
@@ -106,43 +114,45 @@ pub(super) fn threads_and_snapshots(threads: u32, snapshots: u32, list: &mut Lis
 
 /// What both scenes with grains in a column share.
 struct Common<'a> {
-    grains: &'a Grains,
+    /// Smallest and largest diameter [m], and where the largest stands.
+    diameters: [f64; 2],
+    largest: String,
     column: &'a super::Column,
     fluid: &'a Fluid,
     duration: f64,
     gravity: f64,
 }
 
-fn common(scene: &Common, list: &mut List) -> bool {
+fn common(scene: &Common, grains_sound: bool, list: &mut List) -> bool {
     let medium = medium(scene.fluid);
     let model = match scene.fluid {
         Fluid::Still(_) => "still",
         Fluid::Column(_) => "column",
         Fluid::Sph(_) => "sph",
     };
-    let mut sound = list.positive("grains.diameter", scene.grains.diameter);
-    sound &= list.positive("grains.density", scene.grains.density);
-    sound &= list.positive(&format!("fluid.{model}.density"), medium.density);
+    let mut sound = list.positive(&format!("fluid.{model}.density"), medium.density);
     sound &= list.positive(&format!("fluid.{model}.viscosity"), medium.viscosity);
     sound &= list.positive("column.width", scene.column.width);
     sound &= list.positive("column.height", scene.column.height);
     sound &= list.positive("duration", scene.duration);
     sound &= list.positive("gravity", scene.gravity);
-    if sound && scene.grains.diameter >= scene.column.width {
+    let [smallest, largest] = scene.diameters;
+    sound &= grains_sound;
+    if sound && largest >= scene.column.width {
         let message = format!(
             "a grain of {} does not fit in a column {} wide",
-            millimetres(scene.grains.diameter),
+            millimetres(largest),
             millimetres(scene.column.width)
         );
         list.add(
-            "grains.diameter",
+            &scene.largest,
             message,
             "make the grain smaller or the column wider",
         );
         sound = false;
     }
     if let (true, Fluid::Sph(fluid)) = (sound, scene.fluid) {
-        particle_fluid(fluid, scene.grains.diameter, scene.column, list);
+        particle_fluid(fluid, smallest, scene.column, list);
     }
     sound
 }
@@ -232,14 +242,17 @@ fn time_step(settling: &Settling, list: &mut List) {
 }
 
 fn single_sphere(scene: &SingleSphere, list: &mut List) {
+    let mut sound = list.positive("grains.diameter", scene.grains.diameter);
+    sound &= list.positive("grains.density", scene.grains.density);
     let shared = Common {
-        grains: &scene.grains,
+        diameters: [scene.grains.diameter; 2],
+        largest: "grains.diameter".to_owned(),
         column: &scene.column,
         fluid: &scene.fluid,
         duration: scene.duration,
         gravity: scene.gravity,
     };
-    let sound = common(&shared, list);
+    sound &= common(&shared, sound, list);
     if let (true, Fluid::Sph(_)) = (scene.added_mass, &scene.fluid) {
         list.add(
             "added_mass",
@@ -265,14 +278,27 @@ fn single_sphere(scene: &SingleSphere, list: &mut List) {
 }
 
 fn porosity_block(scene: &ConstantPorosityBlock, list: &mut List) {
+    let mut sound = classes(&scene.classes, list);
+    if scene.classes.is_empty() {
+        return;
+    }
+    let index = largest_class(&scene.classes);
+    let diameters = scene.classes.iter().map(|class| class.diameter);
     let shared = Common {
-        grains: &scene.grains,
+        diameters: [
+            diameters.fold(f64::INFINITY, f64::min),
+            scene.classes[index].diameter,
+        ],
+        largest: format!("{}.diameter", class_path(scene.classes.len(), index)),
         column: &scene.column,
         fluid: &scene.fluid,
         duration: scene.duration,
         gravity: scene.gravity,
     };
-    let sound = common(&shared, list);
+    sound &= common(&shared, sound, list);
+    if let Fluid::Sph(fluid) = &scene.fluid {
+        sound &= lengths(fluid, list);
+    }
     // Equal spheres cannot be packed more densely than 0.74 (Kepler).
     if !list.between("porosity", scene.porosity, 0.26, 1.0) || !sound {
         return;
@@ -296,16 +322,65 @@ fn porosity_block(scene: &ConstantPorosityBlock, list: &mut List) {
     lattice(scene, list);
 }
 
+/// The second of several lengths must have a use.
+fn lengths(fluid: &SphFluid, list: &mut List) -> bool {
+    let scheme = &fluid.scheme;
+    let one =
+        scheme.porosity == PorosityPath::TwoPass && scheme.coupling_lengths != CouplingLengths::PerClass;
+    if one {
+        let message = "`coupling_lengths` has no say under `porosity: two_pass`: all grains have the \
+                       smoothing length of the fluid"
+            .to_owned();
+        let help = "leave it out, or write `porosity: one_pass`";
+        list.add("fluid.sph.scheme.coupling_lengths", message, help);
+    }
+    !one
+}
+
+fn largest_class(classes: &[SuspendedClass]) -> usize {
+    let diameter = |index: &usize| classes[*index].diameter;
+    (0..classes.len())
+        .max_by(|a, b| diameter(a).total_cmp(&diameter(b)))
+        .unwrap_or(0)
+}
+
+/// What of the classes of grains cannot be simulated; says whether all can.
+pub(super) fn classes(classes: &[SuspendedClass], list: &mut List) -> bool {
+    let count = classes.len();
+    if !(1..=MOST_CLASSES).contains(&count) {
+        let message = format!("there are {count} classes, it must be one to {MOST_CLASSES}");
+        let help = "put together what hardly differs, or leave it out";
+        list.add("classes", message, help);
+        return false;
+    }
+    let mut sound = true;
+    for (index, class) in classes.iter().enumerate() {
+        let path = |name: &str| format!("{}.{name}", class_path(count, index));
+        sound &= list.positive(&path("diameter"), class.diameter);
+        sound &= list.positive(&path("density"), class.density);
+        sound &= list.positive(&path("share"), class.share);
+    }
+    let shares: f64 = classes.iter().map(|class| class.share).sum();
+    if sound && (shares - 1.0).abs() > SHARE_ROUNDING {
+        let message = format!("the shares add up to {shares}, it must be 1");
+        list.add("classes", message, "shares are of the number of all grains");
+        sound = false;
+    }
+    sound
+}
+
 fn lattice(scene: &ConstantPorosityBlock, list: &mut List) {
-    let diameter = scene.grains.diameter;
+    let mixture = Mixture {
+        classes: scene.classes.clone(),
+    };
+    let diameter = mixture.largest();
     let pitch = scene.column.width / f64::from(scene.grains_per_side);
     if pitch < diameter {
         let message = format!("{} grains do not fit along the width", scene.grains_per_side);
         let most = (scene.column.width / diameter).floor();
         return list.add("grains_per_side", message, &format!("there is room for {most}"));
     }
-    let volume = std::f64::consts::PI / 6.0 * diameter.powi(3);
-    let layer = volume / ((1.0 - scene.porosity) * pitch * pitch);
+    let layer = mixture.mean(mixture::volume) / ((1.0 - scene.porosity) * pitch * pitch);
     if layer < diameter {
         let message = format!("at porosity {} the layers of grains overlap", scene.porosity);
         return list.add(

@@ -2,8 +2,8 @@
 
 use super::setup::{Settling, isolated_speed};
 use super::{
-    Coupling, Description, Drag, Fluid, Hydrostatics, PorosityPath, Scene, SelfDisturbance, SharpeningChoice,
-    Slip, SoundSpeed, SphFluid, Start, StressDensity,
+    Coupling, CouplingLengths, Description, Drag, Fluid, Hydrostatics, PorosityPath, Scene, SelfDisturbance,
+    SharpeningChoice, Slip, SoundSpeed, SphFluid, Start, StressDensity,
 };
 use crate::fluid::FluidParticles;
 
@@ -38,10 +38,11 @@ pub fn describe(scene: &Scene) -> Description {
 
 fn numbers(settling: &Settling, dt: f64, description: &mut Description) {
     let medium = settling.medium();
-    let diameter = settling.grains.diameter;
-    let archimedes =
-        diameter.powi(3) * medium.density * (settling.grains.density - medium.density) * settling.gravity
-            / medium.viscosity.powi(2);
+    let mixture = &settling.mixture;
+    let diameter = mixture.sauter_mean();
+    let density = settling.mass() / settling.volume();
+    let archimedes = diameter.powi(3) * medium.density * (density - medium.density) * settling.gravity
+        / medium.viscosity.powi(2);
     let speed = settling.expected_speed();
     let relaxation = settling.relaxation_time();
     description.numbers.extend([
@@ -112,6 +113,9 @@ fn grains_in_words(settling: &Settling, description: &mut Description) {
                     "m",
                 ),
             ]);
+            if settling.mixture.classes.len() > 1 {
+                classes_in_words(settling, description);
+            }
         }
         None => description.active.push("one grain released from rest".to_owned()),
     }
@@ -132,6 +136,29 @@ fn grains_in_words(settling: &Settling, description: &mut Description) {
         "rotation and lift: no scene of this kind asks for them".to_owned(),
         "floor contact and its sub-steps: only within reach of the floor".to_owned(),
     ]);
+}
+
+fn classes_in_words(settling: &Settling, description: &mut Description) {
+    let mixture = &settling.mixture;
+    description
+        .numbers
+        .push(("Sauter mean diameter".to_owned(), mixture.sauter_mean(), "m"));
+    let count = settling.grains().len() as f64;
+    for class in &mixture.classes {
+        let name = format!("grains of {}", super::check::millimetres(class.diameter));
+        description
+            .numbers
+            .push((name, (class.share * count).round(), "1"));
+    }
+    let Some(sph) = settling.sph() else { return };
+    let lengths = match sph.scheme.coupling_lengths {
+        CouplingLengths::PerClass => "coupling lengths: each class of grains its own",
+        CouplingLengths::Smallest => "coupling lengths: that of the smallest grains for all",
+        CouplingLengths::Largest => "coupling lengths: that of the largest grains for all",
+        CouplingLengths::DoubleSmoothing => "double smoothing of the larger grains' porosity",
+        CouplingLengths::DoubleSmoothingLiteral => "double smoothing as printed in Raso (2014), eq. 3.10",
+    };
+    description.active.push(lengths.to_owned());
 }
 
 fn prescribed_fluid(settling: &Settling, description: &mut Description) {

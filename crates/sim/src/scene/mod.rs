@@ -4,6 +4,7 @@ mod check;
 mod collision;
 mod describe;
 mod divergence;
+mod mixture;
 mod observables;
 mod passage;
 mod profiles;
@@ -72,7 +73,8 @@ pub struct SingleSphere {
 /// A rigid lattice of grains falls through the whole cross-section: every grain gets the mean force.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConstantPorosityBlock {
-    pub grains: Grains,
+    /// Classes of grains, one to four, mixed evenly on the lattice.
+    pub classes: Vec<SuspendedClass>,
     pub drag: Drag,
     pub fluid: Fluid,
     pub column: Column,
@@ -180,6 +182,7 @@ pub struct Scheme {
     /// Density that multiplies the fluid stress on a grain.
     pub stress_density: StressDensity,
     pub slip: Slip,
+    pub coupling_lengths: CouplingLengths,
     /// Contact stiffness k [N/m]; `None` takes it from an overlap target of 0.3 % of d.
     pub stiffness: Option<f64>,
     /// Grain steps per contact time [-].
@@ -252,6 +255,24 @@ pub enum Slip {
     Interstitial,
 }
 
+/// Over which length a grain gives its volume to the fluid and is given its porosity, where there are
+/// several classes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CouplingLengths {
+    /// Each class over its own.
+    PerClass,
+    /// All over that of the smallest class: large grains stand out of the field one by one.
+    Smallest,
+    /// All over that of the largest class: the fluid learns of the small ones as coarsely as of the large.
+    Largest,
+    /// Larger grains first over their own length to the fluid, then over the smallest among the fluid:
+    /// Raso (2014), eqs. 3.8–3.10, with the volume of the fluid particle in the second sum.
+    DoubleSmoothing,
+    /// The same with the volume of the grain in the second sum, as eq. 3.10 is printed: a share φ_b² of the
+    /// larger grains arrives in place of φ_b.
+    DoubleSmoothingLiteral,
+}
+
 impl Scheme {
     /// The recommended scheme where grains lie at random: plain kernels. Sharpened ones give back the edges
     /// of a lattice block, but among random grains they amplify the noise of counting.
@@ -276,6 +297,7 @@ impl Default for Scheme {
             start: Start::Exact,
             stress_density: StressDensity::Superficial,
             slip: Slip::Superficial,
+            coupling_lengths: CouplingLengths::PerClass,
             stiffness: None,
             steps_per_contact: 20.0,
             time_step: None,

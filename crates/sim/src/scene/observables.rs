@@ -183,6 +183,12 @@ const BLOCK: &[Row] = &[
         "porosity of the fluid at the block's middle height at the end",
     ),
     (
+        "porosity_ripple",
+        "1",
+        Scalar,
+        "rms departure of the fluid's porosity from its mean, deep inside the block at the end, over the mean",
+    ),
+    (
         "slip_velocity_1",
         "m/s",
         Series,
@@ -215,6 +221,12 @@ const BLOCK: &[Row] = &[
         "1",
         Profile,
         "porosity each layer of grains sees",
+    ),
+    (
+        "axis_porosity",
+        "1",
+        Profile,
+        "porosity of the fluid particles around the middle of the cross-section over height",
     ),
     ("grain_slip", "m/s", Profile, "mean slip of each layer of grains"),
     ("grain_drag", "N", Profile, "mean drag on a grain of each layer"),

@@ -17,7 +17,7 @@ impl Passage {
     /// A grain at rest at `start` [m].
     pub fn of(settling: &Settling, start: f64) -> Passage {
         Passage {
-            end: (1.5 * settling.grains.diameter).min(start),
+            end: (1.5 * settling.mixture.largest()).min(start),
             largest: 0.0,
             rise: vec![(0.0, 0.0)],
         }

@@ -2,7 +2,7 @@
 
 use crate::drag::PolydisperseLaw;
 use crate::outcome::{Column, Table};
-use crate::simulation::{GrainPorosity, Simulation};
+use crate::simulation::Simulation;
 
 /// Horizontal means of the fluid, one bin per spacing.
 pub fn fluid<L: PolydisperseLaw>(simulation: &Simulation<L>) -> Vec<Table> {
@@ -58,8 +58,8 @@ pub fn fluid<L: PolydisperseLaw>(simulation: &Simulation<L>) -> Vec<Table> {
 
 /// Mean porosity [-] of the fluid particles within a spacing of the middle of the grains.
 pub fn plateau_porosity<L: PolydisperseLaw>(simulation: &Simulation<L>) -> f64 {
-    let (fluid, grains) = (&simulation.fluid, &simulation.grains.grains);
-    let middle = grains.iter().map(|grain| grain.position.z).sum::<f64>() / grains.len() as f64;
+    let fluid = &simulation.fluid;
+    let middle = middle_height(simulation);
     let near = |a: &usize| (fluid.position[*a].z - middle).abs() < fluid.numerics.spacing;
     let (sum, count) = (0..fluid.len()).filter(near).fold((0.0, 0.0), |(sum, count), a| {
         (sum + fluid.porosity[a], count + 1.0)
@@ -67,11 +67,49 @@ pub fn plateau_porosity<L: PolydisperseLaw>(simulation: &Simulation<L>) -> f64 {
     sum / count
 }
 
+/// Root mean square departure of the fluid's porosity from its mean over the mean [-], within a height
+/// `half` [m] of the middle of the grains.
+pub fn porosity_ripple<L: PolydisperseLaw>(simulation: &Simulation<L>, half: f64) -> f64 {
+    let fluid = &simulation.fluid;
+    let middle = middle_height(simulation);
+    let inside: Vec<f64> = (0..fluid.len())
+        .filter(|&a| (fluid.position[a].z - middle).abs() < half)
+        .map(|a| fluid.porosity[a])
+        .collect();
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let centre = mean(&inside);
+    let squares: Vec<f64> = inside.iter().map(|value| (value - centre).powi(2)).collect();
+    mean(&squares).sqrt() / centre
+}
+
+/// Porosity of the fluid particles around the vertical axis of the column, from the bottom.
+pub fn axis<L: PolydisperseLaw>(simulation: &Simulation<L>) -> Table {
+    let fluid = &simulation.fluid;
+    let (axis, reach) = (0.5 * fluid.width, fluid.numerics.spacing);
+    let near = |x: f64| (0.0..reach).contains(&(x - axis));
+    let mut rows: Vec<(f64, f64)> = (0..fluid.len())
+        .filter(|&a| near(fluid.position[a].x) && near(fluid.position[a].y))
+        .map(|a| (fluid.position[a].z, fluid.porosity[a]))
+        .collect();
+    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let column = |name, unit, values| Column { name, unit, values };
+    Table {
+        name: "axis_porosity",
+        columns: vec![
+            column("height", "m", rows.iter().map(|row| row.0).collect()),
+            column("axis_porosity", "1", rows.iter().map(|row| row.1).collect()),
+        ],
+    }
+}
+
+/// Mean height of the grains [m].
+fn middle_height<L: PolydisperseLaw>(simulation: &Simulation<L>) -> f64 {
+    let grains = &simulation.grains.grains;
+    grains.iter().map(|grain| grain.position.z).sum::<f64>() / grains.len() as f64
+}
+
 /// Means over each horizontal layer of grains: the porosity they see, slip and drag.
 pub fn layers<L: PolydisperseLaw>(simulation: &Simulation<L>, layers: usize) -> Vec<Table> {
-    let GrainPorosity::Known(porosity) = &simulation.rules.porosity else {
-        return Vec::new();
-    };
     if layers == 0 {
         return Vec::new();
     }
@@ -84,6 +122,7 @@ pub fn layers<L: PolydisperseLaw>(simulation: &Simulation<L>, layers: usize) -> 
             .collect()
     };
     let (slip, drag): (Vec<f64>, Vec<f64>) = (0..grains.len()).map(|i| simulation.slip_and_drag(i)).unzip();
+    let porosity: Vec<f64> = (0..grains.len()).map(|i| simulation.porosity_at(i)).collect();
     let heights = mean(&grains.iter().map(|grain| grain.position.z).collect::<Vec<_>>());
     let table = |name, unit, values: &[f64]| Table {
         name,
@@ -101,7 +140,7 @@ pub fn layers<L: PolydisperseLaw>(simulation: &Simulation<L>, layers: usize) -> 
         ],
     };
     vec![
-        table("grain_porosity", "1", porosity),
+        table("grain_porosity", "1", &porosity),
         table("grain_slip", "m/s", &slip),
         table("grain_drag", "N", &drag),
     ]

@@ -12,6 +12,9 @@ const ROWS: u64 = 600;
 /// Steps between momentum audits.
 const AUDIT_INTERVAL: u64 = 20;
 
+/// Lengths of the widest kernel after which it has no more than 1e-4 of its weight beyond a plane [-].
+const EDGE: f64 = 1.5;
+
 /// A quantity that is averaged over the terminal window: name, unit, value.
 type Windowed = (&'static str, &'static str, fn(&Sample) -> f64);
 
@@ -56,8 +59,12 @@ pub struct Recorder {
     relaxation: f64,
     /// Buoyancy that the fluid's stress does not hold [N].
     buoyancy: f64,
+    /// Of a grain on the mean [kg].
+    mass: f64,
     isolated: bool,
     block_layers: usize,
+    /// Half the height of the block that smoothing at its edges does not reach [m].
+    inside: f64,
 }
 
 impl Recorder {
@@ -71,13 +78,14 @@ impl Recorder {
         let count = simulation.grains.grains.len();
         let sound = simulation.fluid.numerics.state.sound_speed;
         let scalar = |name, unit, value| Scalar { name, unit, value };
-        let buoyancy = settling.mass() * settling.gravity - simulation.grains.weight() / count as f64;
+        let mass = simulation.grains.mass() / count as f64;
+        let buoyancy = mass * settling.gravity - simulation.grains.weight() / count as f64;
         Recorder {
             every: steps.div_ceil(ROWS),
             tracked: [0, count / 3, 2 * count / 3, count - 1],
             samples: vec![Sample {
                 height: simulation.grains.grains[0].position.z,
-                fluid_acceleration: buoyancy / settling.mass(),
+                fluid_acceleration: buoyancy / mass,
                 ..Sample::default()
             }],
             window: terminal_window(settling, Some(sound)),
@@ -88,20 +96,25 @@ impl Recorder {
             spurious: 0.0,
             relaxation: settling.relaxation_time(),
             buoyancy,
+            mass,
             isolated: settling.sphere.is_some(),
             block_layers: settling.block.map_or(0, |block| block.layers as usize),
+            inside: settling.block.map_or(0.0, |block| {
+                let edge = EDGE * settling.exchange_length(sph);
+                (0.5 * settling.thickness(block) - edge).max(settling.spacing(sph))
+            }),
             scalars: vec![
                 scalar("sound_speed", "m/s", sound),
                 scalar("time_step", "s", dt),
                 scalar("smoothing_length", "m", simulation.fluid.numerics.smoothing()),
-                scalar("exchange_length", "m", simulation.exchange.size(0).length),
+                scalar("exchange_length", "m", settling.exchange_length(sph)),
                 scalar("fluid_particles", "1", simulation.fluid.len() as f64),
                 scalar("grains", "1", count as f64),
                 scalar("porosity", "1", settling.porosity()),
                 scalar(
                     "spacing_over_diameter",
                     "1",
-                    settling.spacing(sph) / settling.grains.diameter,
+                    settling.spacing(sph) / settling.mixture.smallest(),
                 ),
             ],
         }
@@ -148,8 +161,7 @@ impl Recorder {
             slip: report.slip,
             drag: report.drag,
             stress: report.stress,
-            fluid_acceleration: (report.drag + report.stress + self.buoyancy)
-                / simulation.grains.grains[0].mass,
+            fluid_acceleration: (report.drag + report.stress + self.buoyancy) / self.mass,
             disturbance: report.sampled,
             own_flow: report.own_flow,
             height: simulation.grains.grains[0].position.z,
@@ -186,6 +198,11 @@ impl Recorder {
                 "1",
                 super::profiles::plateau_porosity(simulation),
             );
+            push(
+                "porosity_ripple",
+                "1",
+                super::profiles::porosity_ripple(simulation, self.inside),
+            );
         }
         if self.isolated {
             let largest = self.samples.iter().map(|s| s.velocity).fold(0.0, f64::max);
@@ -208,6 +225,9 @@ impl Recorder {
         }
         let mut tables = vec![self.series()];
         tables.extend(super::profiles::fluid(simulation));
+        if !self.isolated {
+            tables.push(super::profiles::axis(simulation));
+        }
         tables.extend(super::profiles::layers(simulation, self.block_layers));
         Outcome {
             scalars: self.scalars,

@@ -1,13 +1,13 @@
 //! Runs a settling scene in a fluid that is not solved: at rest, or flowing back in a closed column.
 //!
-//! Every grain of the set sees the same fluid, so one grain stands for all. Buoyancy is that of the
+//! Every grain of the set sees the same fluid, so one grain, the mean of all, stands for them. Buoyancy is that of the
 //! pure fluid (model B): force = −V ρ_f g + f/ε with the drag f of the superficial slip.
 
 use super::Fluid;
 use super::passage::Passage;
 use super::record::{terminal_window, window_mean};
 use super::setup::Settling;
-use crate::drag::DragLaw;
+use crate::drag::PolydisperseLaw;
 use crate::integrator::ExactDrag;
 use crate::math::Vec3;
 use crate::outcome::{Column, Control, Counters, Failure, FailureKind, Outcome, Scalar, Table};
@@ -18,7 +18,11 @@ const ROWS: usize = 600;
 const TERMINAL: f64 = 0.95;
 
 /// Runs a scene without fluid particles under one drag law.
-pub fn run<L: DragLaw>(settling: &Settling, law: L, control: &Control) -> Result<Outcome, Box<Failure>> {
+pub fn run<L: PolydisperseLaw>(
+    settling: &Settling,
+    law: L,
+    control: &Control,
+) -> Result<Outcome, Box<Failure>> {
     let (dt, steps) = settling.steps();
     let start = settling.positions()[0].z;
     let mut rows = vec![[0.0, 0.0, start, 0.0, 0.0, fluid_acceleration(settling, 0.0)]];
@@ -38,8 +42,8 @@ pub fn run<L: DragLaw>(settling: &Settling, law: L, control: &Control) -> Result
         if !held {
             let (end, mean) = advance(settling, law, velocity, dt);
             velocity = end;
-            height = (height + mean.z * dt).max(0.5 * settling.grains.diameter);
-            if height <= 0.5 * settling.grains.diameter {
+            height = (height + mean.z * dt).max(0.5 * settling.mixture.largest());
+            if height <= 0.5 * settling.mixture.largest() {
                 velocity = Vec3::zeros();
             }
         }
@@ -64,7 +68,7 @@ pub fn run<L: DragLaw>(settling: &Settling, law: L, control: &Control) -> Result
 
 /// Velocity after a step and mean velocity over it, with the drag coefficient of the middle of the step:
 /// second order, exact at rest, at the terminal velocity and under Stokes drag.
-fn advance<L: DragLaw>(settling: &Settling, law: L, velocity: Vec3, dt: f64) -> (Vec3, Vec3) {
+fn advance<L: PolydisperseLaw>(settling: &Settling, law: L, velocity: Vec3, dt: f64) -> (Vec3, Vec3) {
     let body = |speed: f64| ExactDrag {
         mass: settling.mass() + settling.added_mass(),
         drag: coefficient(settling, law, speed),
@@ -90,10 +94,12 @@ fn superficial(settling: &Settling, speed: f64) -> f64 {
 }
 
 /// Drag per speed [kg/s] in the laboratory frame.
-fn coefficient<L: DragLaw>(settling: &Settling, law: L, speed: f64) -> f64 {
+fn coefficient<L: PolydisperseLaw>(settling: &Settling, law: L, speed: f64) -> f64 {
     let share = superficial(settling, 1.0);
     let porosity = settling.porosity();
-    share / porosity * settling.scale().coefficient(&law, share * speed, porosity)
+    let medium = settling.medium();
+    let fluid = [medium.density, medium.viscosity];
+    share / porosity * settling.mixture.coefficient(&law, fluid, share * speed, porosity)
 }
 
 fn outcome(settling: &Settling, rows: &[[f64; 6]], passage: &Passage, dt: f64, steps: u64) -> Outcome {

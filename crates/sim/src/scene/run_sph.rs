@@ -1,10 +1,11 @@
 //! Runs a settling scene in the particle fluid.
 
+use super::mixture::mass;
 use super::record::Recorder;
 use super::setup::{POROSITY_LENGTH, Settling};
 use super::{
-    Coupling, Hydrostatics, KernelChoice, PorosityPath, SelfDisturbance, SharpeningChoice, Slip, SphFluid,
-    Start, StressDensity,
+    Coupling, CouplingLengths, Hydrostatics, KernelChoice, PorosityPath, SelfDisturbance, SharpeningChoice,
+    Slip, SphFluid, Start, StressDensity, SuspendedClass,
 };
 use crate::contact::LinearSpringDashpot;
 use crate::coupling::{
@@ -137,22 +138,23 @@ pub fn assemble<L: PolydisperseLaw>(settling: &Settling, sph: &SphFluid, law: L)
 
 fn rigid_grains(settling: &Settling, sph: &SphFluid, position: &[Vec3]) -> RigidGrains {
     let scheme = &sph.scheme;
-    let weight = match scheme.hydrostatics {
-        Hydrostatics::Split => settling.excess_weight(),
-        Hydrostatics::Carried => settling.mass() * settling.gravity,
-    };
-    let (diameter, mass) = (settling.grains.diameter, settling.mass());
     let speed = settling.expected_speed();
+    // The largest grain is the heaviest to stop; the overlap is told over its diameter.
+    let largest = settling.mixture.largest();
+    let heaviest = (settling.mixture.classes.iter()).map(mass).fold(0.0, f64::max);
     let stiffness = (scheme.stiffness)
-        .unwrap_or_else(|| LinearSpringDashpot::stiffness_for_overlap(mass, speed, 0.003 * diameter));
-    let grain = |&position: &Vec3| RigidGrain {
+        .unwrap_or_else(|| LinearSpringDashpot::stiffness_for_overlap(heaviest, speed, 0.003 * largest));
+    let grain = |(&position, class): (&Vec3, &SuspendedClass)| RigidGrain {
         position,
-        diameter,
-        mass,
-        weight,
+        diameter: class.diameter,
+        mass: mass(class),
+        weight: match scheme.hydrostatics {
+            Hydrostatics::Split => settling.excess_weight_of(class),
+            Hydrostatics::Carried => mass(class) * settling.gravity,
+        },
     };
     RigidGrains {
-        grains: position.iter().map(grain).collect(),
+        grains: position.iter().zip(settling.grains()).map(grain).collect(),
         velocity: Vec3::zeros(),
         held: settling.block.is_some_and(|block| block.held),
         floor: LinearSpringDashpot::with_restitution(stiffness, 1.0),
@@ -194,29 +196,63 @@ fn numerics(settling: &Settling, sph: &SphFluid, gravity: f64) -> Numerics {
 }
 
 fn exchange(settling: &Settling, sph: &SphFluid, fluid: &FluidParticles, position: &[Vec3]) -> Exchange {
-    let (length, sharpening) = match sph.scheme.porosity {
-        PorosityPath::OnePass => (settling.exchange_length(sph), exchange_sharpening(settling, sph)),
-        PorosityPath::TwoPass => (fluid.numerics.smoothing(), Sharpening::NONE),
-    };
-    exchange_of(settling, length, sharpening, fluid, position)
-}
-
-fn exchange_of(
-    settling: &Settling,
-    length: f64,
-    sharpening: Sharpening,
-    fluid: &FluidParticles,
-    position: &[Vec3],
-) -> Exchange {
-    let size = GrainSize {
-        diameter: settling.grains.diameter,
-        length,
-    };
     let rules = ExchangeRules {
-        sharpening,
+        sharpening: match sph.scheme.porosity {
+            PorosityPath::OnePass => exchange_sharpening(settling, sph),
+            PorosityPath::TwoPass => Sharpening::NONE,
+        },
         floor_images: false,
     };
-    Exchange::new(vec![size; position.len()], rules, fluid, position)
+    let size = |class: &SuspendedClass| GrainSize {
+        diameter: class.diameter,
+        length: match sph.scheme.porosity {
+            PorosityPath::OnePass => settling.exchange_length_of(sph, class),
+            PorosityPath::TwoPass => fluid.numerics.smoothing(),
+        },
+    };
+    let classes = settling.grains();
+    let sizes = classes.iter().map(|class| size(class)).collect();
+    let exchange = Exchange::new(sizes, rules, fluid, position);
+    let smallest = settling.mixture.smallest();
+    match sph.scheme.coupling_lengths {
+        CouplingLengths::DoubleSmoothing => {
+            let larger = classes.iter().map(|class| class.diameter > smallest).collect();
+            let finest = (POROSITY_LENGTH * smallest).max(1.2 * fluid.numerics.spacing);
+            exchange.smoothing_twice(larger, finest, fluid)
+        }
+        CouplingLengths::DoubleSmoothingLiteral => {
+            exchange.giving(literal_shares(settling, &classes, position))
+        }
+        _ => exchange,
+    }
+}
+
+/// What Raso (2014), eq. 3.10 as printed leaves of the volume of each grain: the solids fraction of the larger
+/// classes where it is, over their own length.
+fn literal_shares(settling: &Settling, classes: &[&SuspendedClass], position: &[Vec3]) -> Vec<f64> {
+    let smallest = settling.mixture.smallest();
+    let is_larger = |class: &&SuspendedClass| class.diameter > smallest;
+    let (larger, places): (Vec<GrainSize>, Vec<Vec3>) = (classes.iter().zip(position))
+        .filter(|(class, _)| is_larger(class))
+        .map(|(class, place)| {
+            let size = GrainSize {
+                diameter: class.diameter,
+                length: POROSITY_LENGTH * class.diameter,
+            };
+            (size, *place)
+        })
+        .unzip();
+    let rules = PorosityRules {
+        sharpening: Sharpening::NONE,
+        ..PorosityRules::SHARP_LATTICE
+    };
+    let mut porosity = grain_porosity(&places, larger, rules, settling.column.width).into_iter();
+    (classes.iter())
+        .map(|class| match is_larger(class) {
+            true => porosity.next().map_or(1.0, |porosity| 1.0 - porosity),
+            false => 1.0,
+        })
+        .collect()
 }
 
 fn rules<L: PolydisperseLaw>(
@@ -228,8 +264,14 @@ fn rules<L: PolydisperseLaw>(
 ) -> CouplingRules<L> {
     let scheme = &sph.scheme;
     let isolated = settling.sphere.is_some();
+    let twice = matches!(
+        scheme.coupling_lengths,
+        CouplingLengths::DoubleSmoothing | CouplingLengths::DoubleSmoothingLiteral
+    );
     let porosity = match scheme.porosity {
         PorosityPath::TwoPass => GrainPorosity::Sampled,
+        // The published double smoothing is a field of the fluid; grains sample it.
+        PorosityPath::OnePass if twice => GrainPorosity::Sampled,
         PorosityPath::OnePass if isolated => GrainPorosity::Known(vec![1.0]),
         PorosityPath::OnePass => GrainPorosity::Known(lattice_porosity(settling, sph, position)),
     };
@@ -271,10 +313,6 @@ fn rules<L: PolydisperseLaw>(
 
 /// Porosity of every grain of a block.
 fn lattice_porosity(settling: &Settling, sph: &SphFluid, position: &[Vec3]) -> Vec<f64> {
-    let size = GrainSize {
-        diameter: settling.grains.diameter,
-        length: POROSITY_LENGTH * settling.grains.diameter,
-    };
     let rules = PorosityRules {
         sharpening: match sph.scheme.sharpening {
             SharpeningChoice::Conservative => Sharpening::EDGE_NEUTRAL,
@@ -282,7 +320,12 @@ fn lattice_porosity(settling: &Settling, sph: &SphFluid, position: &[Vec3]) -> V
         },
         ..PorosityRules::SHARP_LATTICE
     };
-    grain_porosity(position, vec![size; position.len()], rules, settling.column.width)
+    let size = |class: &SuspendedClass| GrainSize {
+        diameter: class.diameter,
+        length: settling.porosity_length_of(sph, class),
+    };
+    let sizes = settling.grains().into_iter().map(size).collect();
+    grain_porosity(position, sizes, rules, settling.column.width)
 }
 
 /// Length [m] of the continuous kernel that hands out and samples back as much as the exchange kernel does
@@ -298,7 +341,15 @@ fn resolved_length(settling: &Settling, sph: &SphFluid, fluid: &FluidParticles) 
     let echo = |phase: usize| {
         let fallen = Vec3::new(0.0, 0.0, phase as f64 / PHASES as f64 * fluid.numerics.spacing);
         let grain = [start - fallen];
-        let mut exchange = exchange_of(settling, length, sharpening, fluid, &grain);
+        let size = GrainSize {
+            diameter: settling.mixture.smallest(),
+            length,
+        };
+        let rules = ExchangeRules {
+            sharpening,
+            floor_images: false,
+        };
+        let mut exchange = Exchange::new(vec![size], rules, fluid, &grain);
         exchange.refresh(fluid, &grain, &[Vec3::zeros()]);
         exchange.echo(0, fluid)
     };

@@ -2,9 +2,10 @@
 
 use std::f64::consts::PI;
 
+use super::mixture::{Mixture, mass, volume};
 use super::{
-    Column, ConstantPorosityBlock, Drag, Fluid, Grains, Hydrostatics, Medium, SingleSphere, SoundSpeed,
-    SphFluid,
+    Column, ConstantPorosityBlock, CouplingLengths, Drag, Fluid, Hydrostatics, Medium, SingleSphere,
+    SoundSpeed, SphFluid, SuspendedClass,
 };
 use crate::drag::DragScale;
 use crate::math::Vec3;
@@ -54,10 +55,10 @@ macro_rules! with_law {
 }
 pub(super) use with_law;
 
-/// What both scenes share, by reference.
-#[derive(Clone, Copy)]
+/// What both scenes share.
+#[derive(Clone)]
 pub struct Settling<'a> {
-    pub grains: &'a Grains,
+    pub mixture: Mixture,
     pub drag: Drag,
     pub fluid: &'a Fluid,
     pub column: &'a Column,
@@ -71,7 +72,13 @@ pub struct Settling<'a> {
 impl<'a> Settling<'a> {
     pub fn of_sphere(sphere: &'a SingleSphere) -> Self {
         Settling {
-            grains: &sphere.grains,
+            mixture: Mixture {
+                classes: vec![SuspendedClass {
+                    diameter: sphere.grains.diameter,
+                    density: sphere.grains.density,
+                    share: 1.0,
+                }],
+            },
             drag: sphere.drag,
             fluid: &sphere.fluid,
             column: &sphere.column,
@@ -84,7 +91,9 @@ impl<'a> Settling<'a> {
 
     pub fn of_block(block: &'a ConstantPorosityBlock) -> Self {
         Settling {
-            grains: &block.grains,
+            mixture: Mixture {
+                classes: block.classes.clone(),
+            },
             drag: block.drag,
             fluid: &block.fluid,
             column: &block.column,
@@ -109,22 +118,24 @@ impl<'a> Settling<'a> {
         }
     }
 
+    /// Of the Sauter mean of the grains.
     pub fn scale(&self) -> DragScale {
         let medium = self.medium();
         DragScale {
-            diameter: self.grains.diameter,
+            diameter: self.mixture.sauter_mean(),
             density: medium.density,
             viscosity: medium.viscosity,
         }
     }
 
-    /// Volume of a grain [m³].
+    /// Mean volume of a grain [m³].
     pub fn volume(&self) -> f64 {
-        PI / 6.0 * self.grains.diameter.powi(3)
+        self.mixture.mean(volume)
     }
 
+    /// Mean mass of a grain [kg].
     pub fn mass(&self) -> f64 {
-        self.grains.density * self.volume()
+        self.mixture.mean(mass)
     }
 
     /// Mass of the fluid that an accelerating grain carries along [kg]: that of half its volume, the
@@ -136,9 +147,14 @@ impl<'a> Settling<'a> {
         }
     }
 
-    /// Weight less buoyancy of one grain [N].
+    /// Weight less buoyancy of a grain, on the mean [N].
     pub fn excess_weight(&self) -> f64 {
-        (self.grains.density - self.medium().density) * self.volume() * self.gravity
+        self.mixture.mean(|class| self.excess_weight_of(class))
+    }
+
+    /// Weight less buoyancy of a grain of a class [N].
+    pub fn excess_weight_of(&self, class: &SuspendedClass) -> f64 {
+        (class.density - self.medium().density) * volume(class) * self.gravity
     }
 
     /// Porosity the grains settle at [-].
@@ -152,12 +168,20 @@ impl<'a> Settling<'a> {
         if force == 0.0 {
             return 0.0;
         }
-        with_law!(self.drag, law => self.scale().balance(&law, force, self.porosity()))
+        let medium = self.medium();
+        let fluid = [medium.density, medium.viscosity];
+        with_law!(self.drag, law => self.mixture.balance(&law, fluid, force, self.porosity()))
     }
 
-    /// Stokes relaxation time m/(3πμd) [s].
+    /// Stokes relaxation time m/(3πμd) [s] of the class that has the shortest.
     pub fn relaxation_time(&self) -> f64 {
-        self.mass() / (3.0 * PI * self.medium().viscosity * self.grains.diameter)
+        let viscosity = self.medium().viscosity;
+        let time = |class: &SuspendedClass| mass(class) / (3.0 * PI * viscosity * class.diameter);
+        self.mixture
+            .classes
+            .iter()
+            .map(time)
+            .fold(f64::INFINITY, f64::min)
     }
 
     /// (m + added mass) v/F at the terminal velocity [s]: how fast a grain in a fluid that is not solved comes
@@ -171,9 +195,9 @@ impl<'a> Settling<'a> {
         }
     }
 
-    /// Particle spacing [m] of an sph fluid, adjusted to divide the width.
+    /// Particle spacing [m] of an sph fluid over the smallest grain, adjusted to divide the width.
     pub fn spacing(&self, sph: &SphFluid) -> f64 {
-        let wanted = sph.spacing_over_diameter * self.grains.diameter;
+        let wanted = sph.spacing_over_diameter * self.mixture.smallest();
         self.column.width / (self.column.width / wanted).round().max(1.0)
     }
 
@@ -189,14 +213,54 @@ impl<'a> Settling<'a> {
         block.layers as f64 * self.vertical_pitch(block)
     }
 
+    /// Height of a layer [m] at which all grains together have the porosity of the block.
     fn vertical_pitch(&self, block: &ConstantPorosityBlock) -> f64 {
-        let pitch = self.column.width / block.grains_per_side as f64;
-        self.volume() / ((1.0 - block.porosity) * pitch * pitch)
+        let solids: f64 = self.lattice(block).iter().map(|class| volume(class)).sum();
+        let area = self.column.width * self.column.width;
+        solids / ((1.0 - block.porosity) * area * f64::from(block.layers))
     }
 
-    /// Exchange length h_x [m].
+    /// The class of each grain of a block, layer by layer.
+    fn lattice(&self, block: &ConstantPorosityBlock) -> Vec<&SuspendedClass> {
+        let (side, layers) = (block.grains_per_side as usize, block.layers as usize);
+        let classes = self.mixture.arrange(side, layers);
+        classes
+            .iter()
+            .map(|&class| &self.mixture.classes[class])
+            .collect()
+    }
+
+    /// The class of each grain, in the order of [`positions`](Self::positions).
+    pub fn grains(&self) -> Vec<&SuspendedClass> {
+        match self.block {
+            Some(block) => self.lattice(block),
+            None => vec![&self.mixture.classes[0]],
+        }
+    }
+
+    /// Diameter [m] whose lengths a grain of a class has in the coupling.
+    fn coupling_diameter(&self, sph: &SphFluid, class: &SuspendedClass) -> f64 {
+        match sph.scheme.coupling_lengths {
+            CouplingLengths::PerClass | CouplingLengths::DoubleSmoothing => class.diameter,
+            CouplingLengths::Largest => self.mixture.largest(),
+            CouplingLengths::Smallest | CouplingLengths::DoubleSmoothingLiteral => self.mixture.smallest(),
+        }
+    }
+
+    /// Exchange length h_x of a grain of a class [m].
+    pub fn exchange_length_of(&self, sph: &SphFluid, class: &SuspendedClass) -> f64 {
+        (POROSITY_LENGTH * self.coupling_diameter(sph, class)).max(1.2 * self.spacing(sph))
+    }
+
+    /// Porosity length h_p of a grain of a class [m].
+    pub fn porosity_length_of(&self, sph: &SphFluid, class: &SuspendedClass) -> f64 {
+        POROSITY_LENGTH * self.coupling_diameter(sph, class)
+    }
+
+    /// The longest exchange length of all classes [m].
     pub fn exchange_length(&self, sph: &SphFluid) -> f64 {
-        (POROSITY_LENGTH * self.grains.diameter).max(1.2 * self.spacing(sph))
+        let lengths = (self.mixture.classes.iter()).map(|class| self.exchange_length_of(sph, class));
+        lengths.fold(0.0, f64::max)
     }
 
     /// Sound speed [m/s]: ten times any speed, one per cent of density change, and pressure that

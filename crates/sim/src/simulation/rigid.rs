@@ -40,7 +40,8 @@ impl RigidGrains {
         self.grains.iter().map(|grain| grain.weight).sum()
     }
 
-    fn mass(&self) -> f64 {
+    /// Sum of the masses [kg].
+    pub fn mass(&self) -> f64 {
         self.grains.iter().map(|grain| grain.mass).sum()
     }
 

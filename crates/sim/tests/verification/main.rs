@@ -5,6 +5,7 @@ mod beds;
 mod coupled;
 mod failures;
 mod hydrostatics;
+mod mixtures;
 mod momentum;
 mod orders;
 mod reproducibility;

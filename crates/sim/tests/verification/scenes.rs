@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use kynch_sim::outcome::{Control, Outcome};
 use kynch_sim::scene::{
     Column, ConstantPorosityBlock, Coupling, Drag, Fluid, Grains, Medium, Scene, Scheme, SelfDisturbance,
-    SingleSphere, SphFluid,
+    SingleSphere, SphFluid, SuspendedClass,
 };
 
 pub const GRAVITY: f64 = 9.81;
@@ -50,7 +50,7 @@ pub fn sphere(fluid: Fluid) -> SingleSphere {
 pub fn block(fluid: Fluid, porosity: f64, width: f64) -> ConstantPorosityBlock {
     let pitch = (volume(&GLASS) / (1.0 - porosity)).cbrt();
     ConstantPorosityBlock {
-        grains: GLASS,
+        classes: vec![class(GLASS.diameter, 1.0)],
         drag: Drag::DiFelice,
         fluid,
         column: Column { width, height: 6e-3 },
@@ -60,6 +60,15 @@ pub fn block(fluid: Fluid, porosity: f64, width: f64) -> ConstantPorosityBlock {
         held: false,
         duration: 60e-3,
         gravity: GRAVITY,
+    }
+}
+
+/// Glass spheres of a diameter [m] that are a share of all.
+pub fn class(diameter: f64, share: f64) -> SuspendedClass {
+    SuspendedClass {
+        diameter,
+        density: GLASS.density,
+        share,
     }
 }
 

@@ -1,6 +1,6 @@
 //! The sums of a refresh: weights of the grains, solids of the fluid.
 
-use super::{Exchange, unwrapped};
+use super::{Exchange, GrainSize, unwrapped};
 use crate::fluid::kernel::{Kernel, WendlandC2};
 use crate::math::Vec3;
 use crate::neighbours::{LANES, Wide, WideWork};
@@ -37,7 +37,12 @@ impl WideWork for Weigh<'_> {
             let i = i as usize;
             let size = &exchange.sizes[i];
             let place = unwrapped(&self.position[i], &exchange.grain_anchor[i], self.width);
-            let grain = Source::<W>::new(size.diameter, size.length, &place, &self.velocity[i]);
+            let grain = Source::<W>::new(size, exchange.given[i], &place, &self.velocity[i]);
+            // What is smoothed once more is kept apart until then.
+            let sums = match &mut exchange.twice {
+                Some(twice) if twice.marked[i] => &mut twice.sums,
+                _ => &mut exchange.sums,
+            };
             let mirrored = exchange.rules.floor_images && place.z < 2.0 * size.length;
             let mut norm = W::splat(0.0);
             for members in exchange.candidates.row(row).as_chunks::<LANES>().0 {
@@ -52,7 +57,7 @@ impl WideWork for Weigh<'_> {
                 };
                 for lane in 0..LANES {
                     let source = exchange.source_of[members[lane] as usize];
-                    let sum = &mut exchange.sums[source as usize].0;
+                    let sum = &mut sums[source as usize].0;
                     for (sum, value) in sum.iter_mut().zip(&records[lane].0) {
                         *sum += value;
                     }
@@ -66,9 +71,9 @@ impl WideWork for Weigh<'_> {
 
 impl<W: Wide> Source<W> {
     #[inline(always)]
-    fn new(diameter: f64, length: f64, position: &Vec3, velocity: &Vec3) -> Self {
-        let volume = super::GrainSize { diameter, length }.volume();
-        let per_length = 1.0 / length;
+    fn new(size: &GrainSize, given: f64, position: &Vec3, velocity: &Vec3) -> Self {
+        let volume = given * size.volume();
+        let per_length = 1.0 / size.length;
         let unit = volume * (per_length * per_length * per_length);
         Source {
             position: [W::splat(position.x), W::splat(position.y), W::splat(position.z)],
@@ -76,7 +81,7 @@ impl<W: Wide> Source<W> {
             per_length: W::splat(per_length),
             unit: W::splat(unit),
             slope_unit: W::splat(unit * per_length * per_length),
-            per_diameter: W::splat(1.0 / diameter),
+            per_diameter: W::splat(1.0 / size.diameter),
         }
     }
 

@@ -1,8 +1,7 @@
 //! What of a suspension cannot be simulated.
 
 use super::model::{SuspendingFluid, Suspension};
-use super::observe::MOST_CLASSES;
-use crate::scene::check::{List, millimetres, particle_fluid, threads_and_snapshots};
+use crate::scene::check::{self, List, millimetres, particle_fluid, threads_and_snapshots};
 use crate::scene::sedimentation::{class_path, time_step};
 use crate::scene::{Drag, Scheme, SphFluid};
 
@@ -10,8 +9,6 @@ use crate::scene::{Drag, Scheme, SphFluid};
 const LEAST_POROSITY: f64 = 0.6;
 /// Fewest largest diameters across the column: no grain may meet itself.
 const FEWEST_ACROSS: f64 = 3.0;
-/// Departure of the sum of the shares from one [-].
-const ROUNDING: f64 = 1e-6;
 
 pub fn check(scene: &Suspension, list: &mut List) {
     let mut sound = classes(scene, list);
@@ -30,21 +27,9 @@ pub fn check(scene: &Suspension, list: &mut List) {
 
 fn classes(scene: &Suspension, list: &mut List) -> bool {
     let count = scene.classes.len();
-    if !(1..=MOST_CLASSES).contains(&count) {
-        let message = format!("there are {count} classes, it must be one to {MOST_CLASSES}");
-        list.add(
-            "classes",
-            message,
-            "put together what hardly differs, or leave it out",
-        );
-        return false;
-    }
-    let mut sound = true;
+    let mut sound = check::classes(&scene.classes, list);
     for (index, class) in scene.classes.iter().enumerate() {
         let path = |name: &str| format!("{}.{name}", class_path(count, index));
-        sound &= list.positive(&path("diameter"), class.diameter);
-        sound &= list.positive(&path("density"), class.density);
-        sound &= list.positive(&path("share"), class.share);
         let fluid = scene.fluid.medium().density;
         if class.density < fluid {
             let message = format!(
@@ -58,12 +43,6 @@ fn classes(scene: &Suspension, list: &mut List) -> bool {
             );
             sound = false;
         }
-    }
-    let shares: f64 = scene.classes.iter().map(|class| class.share).sum();
-    if sound && (shares - 1.0).abs() > ROUNDING {
-        let message = format!("the shares add up to {shares}, it must be 1");
-        list.add("classes", message, "shares are of the number of all grains");
-        sound = false;
     }
     sound
 }

@@ -16,4 +16,5 @@ pub use model::{Homogeneity, SoftContact, SuspendedClass, SuspendingFluid, Suspe
 pub(super) use check::check;
 pub(super) use describe::describe;
 pub(super) use observables::observables;
+pub(super) use observe::MOST_CLASSES;
 pub(super) use run::run;
