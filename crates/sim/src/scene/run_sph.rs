@@ -16,7 +16,9 @@ use crate::fluid::kernel::Sharpening;
 use crate::fluid::{Continuity, EquationOfState, FluidParticles, Numerics};
 use crate::math::Vec3;
 use crate::outcome::{Control, Failure, FailureKind, Outcome};
-use crate::simulation::{CouplingRules, GrainPorosity, RigidGrain, RigidGrains, Simulation, SlipRule};
+use crate::simulation::{
+    CouplingRules, GrainPorosity, GrainSet, RigidGrain, RigidGrains, Simulation, SlipRule,
+};
 
 /// χ of the bulk viscosity that damps compression; the step's limit counts on it.
 const BULK_DAMPING: f64 = 0.1;
@@ -77,12 +79,8 @@ fn failure<L: PolydisperseLaw>(
 fn divergence<L: PolydisperseLaw>(simulation: &Simulation<L>, height: f64) -> Option<String> {
     let when = format!("at t = {:.6e} s (step {})", simulation.time, simulation.steps);
     let fluid = &simulation.fluid;
-    if let Some(a) = (0..fluid.len()).find(|&a| !(fluid.velocity[a].norm() + fluid.pressure[a]).is_finite()) {
-        let x = &fluid.anchored_position(a);
-        return Some(format!(
-            "fluid particle {a} is not finite {when}, last near ({:.3e}, {:.3e}, {:.3e}) m",
-            x.x, x.y, x.z
-        ));
+    if let Some(reason) = not_finite(fluid, &when) {
+        return Some(reason);
     }
     if !simulation.grains.velocity.norm().is_finite() {
         return Some(format!("the grains' velocity is not finite {when}"));
@@ -98,15 +96,35 @@ fn divergence<L: PolydisperseLaw>(simulation: &Simulation<L>, height: f64) -> Op
         return Some(format!("grain {i} left the fluid through its surface {when}"));
     }
     simulation.energy_excess().map(|(energy, bound)| {
-        let speed = |a: &usize| fluid.velocity[*a].norm();
-        let fastest = (0..fluid.len()).max_by(|a, b| speed(a).total_cmp(&speed(b))).unwrap_or(0);
-        let x = fluid.anchored_position(fastest);
         format!(
-            "kinetic energy {energy:.3e} J exceeds twice what gravity and the start gave, {bound:.3e} J, {when}; \
-             fluid particle {fastest} is the fastest, near ({:.3e}, {:.3e}, {:.3e}) m",
-            x.x, x.y, x.z
+            "kinetic energy {energy:.3e} J exceeds twice what gravity and the start gave, {bound:.3e} J, {when}; {}",
+            fastest(fluid)
         )
     })
+}
+
+/// Which fluid particle is no number, if one is.
+pub fn not_finite(fluid: &FluidParticles, when: &str) -> Option<String> {
+    let sound = |a: &usize| (fluid.velocity[*a].norm() + fluid.pressure[*a]).is_finite();
+    let a = (0..fluid.len()).find(|a| !sound(a))?;
+    let x = fluid.anchored_position(a);
+    Some(format!(
+        "fluid particle {a} is not finite {when}, last near ({:.3e}, {:.3e}, {:.3e}) m",
+        x.x, x.y, x.z
+    ))
+}
+
+/// Which fluid particle is the fastest.
+pub fn fastest(fluid: &FluidParticles) -> String {
+    let speed = |a: &usize| fluid.velocity[*a].norm();
+    let fastest = (0..fluid.len())
+        .max_by(|a, b| speed(a).total_cmp(&speed(b)))
+        .unwrap_or(0);
+    let x = fluid.anchored_position(fastest);
+    format!(
+        "fluid particle {fastest} is the fastest, near ({:.3e}, {:.3e}, {:.3e}) m",
+        x.x, x.y, x.z
+    )
 }
 
 /// Builds fluid, grains and coupling in their starting state.
@@ -116,7 +134,12 @@ pub fn assemble<L: PolydisperseLaw>(settling: &Settling, sph: &SphFluid, law: L)
         Hydrostatics::Split => 0.0,
         Hydrostatics::Carried => settling.gravity,
     };
-    let numerics = numerics(settling, sph, fluid_weight);
+    let numerics = numerics(
+        sph,
+        settling.spacing(sph),
+        settling.sound_speed(sph),
+        fluid_weight,
+    );
     let mut fluid = FluidParticles::lattice(numerics, settling.column.width, settling.column.height);
     let position = settling.positions();
     let grains = rigid_grains(settling, sph, &position);
@@ -125,7 +148,12 @@ pub fn assemble<L: PolydisperseLaw>(settling: &Settling, sph: &SphFluid, law: L)
         exchange.refresh(&fluid, &position, &vec![Vec3::zeros(); position.len()]);
         let solids = &exchange.solids.fraction;
         let porosity: Vec<f64> = solids.iter().map(|solids| 1.0 - solids).collect();
-        let profile = carried_pressure(settling, &fluid, solids, grains.held);
+        let drive = if grains.held || settling.block.is_none() {
+            0.0
+        } else {
+            settling.excess_weight() / settling.volume()
+        };
+        let profile = carried_pressure(&fluid, solids, settling.column.height, drive);
         let density = numerics.state.density;
         let height = settling.column.height;
         fluid.prepare(&porosity, |x| {
@@ -162,12 +190,10 @@ fn rigid_grains(settling: &Settling, sph: &SphFluid, position: &[Vec3]) -> Rigid
     }
 }
 
-fn numerics(settling: &Settling, sph: &SphFluid, gravity: f64) -> Numerics {
-    let medium = settling.medium();
-    let spacing = settling.spacing(sph);
-    let sound_speed = settling.sound_speed(sph);
+/// The fluid's numerical choices at a spacing [m], a sound speed [m/s] and a weight per mass [m/s²].
+pub fn numerics(sph: &SphFluid, spacing: f64, sound_speed: f64, gravity: f64) -> Numerics {
+    let (medium, scheme) = (sph.medium, &sph.scheme);
     let smoothing = 1.5 * spacing;
-    let scheme = &sph.scheme;
     // The α form of the real viscosity: α = S ν/(c h).
     let real = scheme.viscosity_constant.map_or(0.0, |s| {
         s * medium.viscosity / medium.density / (sound_speed * smoothing)
@@ -275,12 +301,6 @@ fn rules<L: PolydisperseLaw>(
         PorosityPath::OnePass if isolated => GrainPorosity::Known(vec![1.0]),
         PorosityPath::OnePass => GrainPorosity::Known(lattice_porosity(settling, sph, position)),
     };
-    let slip = match (scheme.slip, scheme.porosity, isolated) {
-        (Slip::Interstitial, _, _) => SlipRule::Interstitial,
-        (Slip::Superficial, PorosityPath::TwoPass, _) => SlipRule::PorosityTimesInterstitial,
-        (Slip::Superficial, PorosityPath::OnePass, true) => SlipRule::Isolated,
-        (Slip::Superficial, PorosityPath::OnePass, false) => SlipRule::MixtureFlux,
-    };
     let corrected = settling.sphere.is_some_and(|sphere| {
         sphere.self_disturbance == SelfDisturbance::Corrected && sphere.coupling == Coupling::TwoWay
     });
@@ -292,7 +312,7 @@ fn rules<L: PolydisperseLaw>(
     CouplingRules {
         law,
         fluid: [medium.density, medium.viscosity],
-        slip,
+        slip: slip_rule(sph, isolated),
         porosity,
         buoyancy,
         intrinsic_stress: scheme.stress_density == StressDensity::Intrinsic,
@@ -308,6 +328,16 @@ fn rules<L: PolydisperseLaw>(
             )
         }),
         refresh_interval: if isolated { 1 } else { 8 },
+    }
+}
+
+/// What the drag law is asked with.
+pub fn slip_rule(sph: &SphFluid, isolated: bool) -> SlipRule {
+    match (sph.scheme.slip, sph.scheme.porosity, isolated) {
+        (Slip::Interstitial, _, _) => SlipRule::Interstitial,
+        (Slip::Superficial, PorosityPath::TwoPass, _) => SlipRule::PorosityTimesInterstitial,
+        (Slip::Superficial, PorosityPath::OnePass, true) => SlipRule::Isolated,
+        (Slip::Superficial, PorosityPath::OnePass, false) => SlipRule::MixtureFlux,
     }
 }
 
@@ -383,25 +413,20 @@ fn own_flow(settling: &Settling, sph: &SphFluid, fluid: &FluidParticles) -> Self
 }
 
 /// Excess pressure [Pa] at height z [m] of a fluid that carries falling grains at their terminal speed:
-/// p′(z) = Δρ g ∫_z φ dz, zero for held grains and single ones.
-fn carried_pressure(
-    settling: &Settling,
+/// p′(z) = Δρ g ∫_z φ dz with `drive` Δρ g [N/m³], zero for held grains and single ones.
+pub fn carried_pressure(
     fluid: &FluidParticles,
     solids: &[f64],
-    held: bool,
+    height: f64,
+    drive: f64,
 ) -> impl Fn(f64) -> f64 + use<> {
     let spacing = fluid.numerics.spacing;
-    let layers = (settling.column.height / spacing).round() as usize;
+    let layers = (height / spacing).round() as usize;
     let mut mean = vec![(0.0, 0u32); layers];
     for (x, solids) in fluid.position.iter().zip(solids) {
         let bin = &mut mean[((x.z / spacing) as usize).min(layers - 1)];
         *bin = (bin.0 + solids, bin.1 + 1);
     }
-    let drive = if held || settling.block.is_none() {
-        0.0
-    } else {
-        settling.excess_weight() / settling.volume()
-    };
     // Pressure at the layers' middles, from the free surface downward.
     let mut pressure = vec![0.0; layers];
     let mut above = 0.0;
@@ -416,6 +441,12 @@ fn carried_pressure(
 /// The published start: a lattice without pressure is damped while the grains are held.
 fn relax<L: PolydisperseLaw>(simulation: &mut Simulation<L>, dt: f64) {
     let held = std::mem::replace(&mut simulation.grains.held, true);
+    damp(simulation, dt);
+    simulation.grains.held = held;
+}
+
+/// Damps the fluid for the steps of the published start; the grains should be held meanwhile.
+pub fn damp<L: PolydisperseLaw, G: GrainSet>(simulation: &mut Simulation<L, G>, dt: f64) {
     for _ in 0..RELAXATION_STEPS {
         simulation.step(dt);
         simulation
@@ -424,6 +455,5 @@ fn relax<L: PolydisperseLaw>(simulation: &mut Simulation<L>, dt: f64) {
             .iter_mut()
             .for_each(|velocity| *velocity *= 0.98);
     }
-    simulation.grains.held = held;
     simulation.restart_clock();
 }

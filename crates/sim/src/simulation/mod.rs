@@ -2,16 +2,26 @@
 //!
 //! What the grains are is their own matter ([`GrainSet`]): a rigid set, whose smallest is a single grain,
 //! or free ones. Each fluid step: kick and drift, refresh the coupling, sum the rates, exchange momentum,
-//! kick. The exchange sees velocities at the full step, extrapolated with the last reaction, so a steady
-//! state is free of the step's length.
+//! kick. The exchange sees velocities at the full step, extrapolated with the last reaction and with how it
+//! answers the fluid:
+//!
+//! ```text
+//! u′ = u + ½Δt (a + r − B (u − u_r))/(1 + ½Δt B),   B = ε Σ_i w β_i/m
+//! ```
+//!
+//! r is the reaction to the velocity u_r in the last step, a all other acceleration. A steady state is free
+//! of the step's length, and no bed is so dense that it limits the step: the true rates at which grains stop
+//! the fluid lie between zero and B, and for those the scheme is stable at any step.
 
 mod audit;
 mod drag;
+mod free;
 mod grains;
 mod momentum;
 mod rigid;
 mod rules;
 
+pub use free::FreeGrains;
 pub use grains::{FluidForce, GrainSet, Motion};
 pub use rigid::{RigidGrain, RigidGrains};
 pub use rules::{CouplingRules, GrainPorosity, SlipRule, StepReport};
@@ -51,6 +61,10 @@ pub struct Simulation<L, G = RigidGrains> {
     impulses: Vec<Vec3>,
     exchanged_over: f64,
     reactions: Vec<[f64; 4]>,
+    /// Rate B at which the drag of all grains around stops each particle [1/s], and the velocity of the
+    /// particle that the last reaction answers [m/s].
+    stopping: Vec<f64>,
+    answered: Vec<Vec3>,
 }
 
 /// Porosity below which the drag law is not asked.
@@ -84,6 +98,8 @@ impl<L: PolydisperseLaw, G: GrainSet> Simulation<L, G> {
             impulses: vec![Vec3::zeros(); count],
             exchanged_over: 0.0,
             reactions: vec![[0.0; 4]; particles],
+            stopping: vec![0.0; particles],
+            answered: vec![Vec3::zeros(); particles],
         };
         simulation.refresh_weights(0.0);
         simulation.carry_porosity();

@@ -35,7 +35,8 @@ impl<L: PolydisperseLaw, G: GrainSet> Simulation<L, G> {
         let solids = &self.exchange.solids;
         for a in 0..self.fluid.len() {
             let porosity = self.fluid.porosity[a];
-            let velocity = self.fluid.velocity_ahead(a, ahead);
+            let velocity = self.velocity_ahead(a, ahead);
+            self.answered[a] = velocity;
             let sampled = if flux {
                 porosity * velocity + self.fluid.solid_flux[a]
             } else {
@@ -51,6 +52,15 @@ impl<L: PolydisperseLaw, G: GrainSet> Simulation<L, G> {
             let surface = (1.0 - porosity) * per_size;
             self.fields[a] = Field::new(sampled, self.fluid.stress[a] / share, porosity, surface);
         }
+    }
+
+    /// Velocity of a fluid particle a time `ahead` [s] from now, by implicit drag.
+    fn velocity_ahead(&self, a: usize, ahead: f64) -> Vec3 {
+        let fluid = &self.fluid;
+        let (velocity, stopping) = (fluid.velocity[a], self.stopping[a]);
+        let answer = (velocity - self.answered[a]) * stopping;
+        let acceleration = fluid.acceleration[a] + fluid.reaction[a] - answer;
+        velocity + acceleration * (ahead / (1.0 + ahead * stopping))
     }
 
     fn own_flow(&self, dt: f64) -> OwnFlow {
@@ -141,14 +151,18 @@ impl<L: PolydisperseLaw, G: GrainSet> Simulation<L, G> {
         self.reactions.fill([0.0; 4]);
         for &grain in self.exchange.order() {
             let given = -self.impulses[grain as usize] / dt;
+            let drag = self.forces[grain as usize].drag;
             self.exchange.spread(
                 grain as usize,
-                [given.x, given.y, given.z, 0.0],
+                [given.x, given.y, given.z, drag],
                 &mut self.reactions,
             );
         }
+        let flux = self.rules.slip == SlipRule::MixtureFlux;
         for (a, sums) in self.reactions.iter().enumerate() {
-            self.fluid.reaction[a] = Vec3::new(sums[0], sums[1], sums[2]) / self.fluid.mass[a];
+            let (porosity, mass) = (self.fluid.porosity[a], self.fluid.mass[a]);
+            self.fluid.reaction[a] = Vec3::new(sums[0], sums[1], sums[2]) / mass;
+            self.stopping[a] = sums[3] * if flux { porosity } else { 1.0 } / mass;
         }
     }
 

@@ -159,6 +159,18 @@ impl Bed {
         self.arrive(drives, &span, impulses)
     }
 
+    /// What the contacts gave all grains together in the last span [N s]: the impulse of the walls, since
+    /// contacts between grains cancel but for rounding.
+    pub fn contact_impulse(&self) -> Vec3 {
+        let busy = self.driven.some.as_flattened().iter();
+        busy.filter(|place| (**place as usize) < self.grains.moving)
+            .map(|place| {
+                let [.., x, y, z, _] = self.driven.launches[*place as usize].0;
+                Vec3::new(x, y, z)
+            })
+            .sum()
+    }
+
     /// Wakes all sleepers.
     fn rouse(&mut self) {
         if self.sleep.is_none() || self.asleep() == 0.0 {

@@ -7,8 +7,11 @@ mod describe;
 mod model;
 mod observables;
 mod observe;
+mod particles;
 mod profile;
 mod run;
+mod sph;
+mod terminal;
 mod watch;
 
 pub use model::{Homogeneity, SoftContact, SuspendedClass, SuspendingFluid, Suspension};

@@ -2,10 +2,12 @@
 
 use super::column::InColumn;
 use super::model::{SuspendingFluid, Suspension};
+use super::sph::InParticles;
 use super::watch::Watch;
 use crate::bed::Bed;
 use crate::outcome::{Control, Counters, Failure, FailureKind, Outcome, Scalar};
 use crate::scene::divergence::diverged;
+use crate::scene::setup::with_law;
 
 /// Rows of the time series, at least and at most in a run.
 const ROWS: [f64; 2] = [100.0, 400.0];
@@ -51,11 +53,9 @@ pub trait Settling {
 pub fn run(scene: &Suspension, control: &Control) -> Result<Outcome, Box<Failure>> {
     match &scene.fluid {
         SuspendingFluid::Column(_) => settle(scene, InColumn::start(scene), control),
-        SuspendingFluid::Sph(_) => Err(failed(
-            FailureKind::Stopped,
-            "suspensions in particle fluids cannot be run yet".to_owned(),
-            Outcome::default(),
-        )),
+        SuspendingFluid::Sph(sph) => {
+            with_law!(scene.drag, law => settle(scene, InParticles::start(scene, sph, law), control))
+        }
     }
 }
 

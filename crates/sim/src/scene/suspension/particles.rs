@@ -1,0 +1,89 @@
+//! The numbers of a suspension in a particle fluid: spacing, sound speed, step.
+
+use super::model::Suspension;
+use crate::scene::setup::{COURANT, POROSITY_LENGTH};
+use crate::scene::{Hydrostatics, SoundSpeed, SphFluid};
+
+/// Density change of the fluid under the weight that the grains put on it [-].
+const COMPRESSION: f64 = 0.01;
+
+/// A suspension in its particle fluid.
+#[derive(Clone, Copy)]
+pub struct Particles<'a> {
+    pub scene: &'a Suspension,
+    pub sph: &'a SphFluid,
+}
+
+impl Particles<'_> {
+    /// Particle spacing [m], adjusted to divide the width.
+    pub fn spacing(&self) -> f64 {
+        let width = self.scene.column.width;
+        let wanted = self.sph.spacing_over_diameter * self.scene.smallest_diameter();
+        width / (width / wanted).round().max(1.0)
+    }
+
+    /// Porosity length of grains of a diameter [m].
+    pub fn porosity_length(&self, diameter: f64) -> f64 {
+        POROSITY_LENGTH * diameter
+    }
+
+    /// Exchange length of grains of a diameter [m].
+    pub fn exchange_length(&self, diameter: f64) -> f64 {
+        (POROSITY_LENGTH * diameter).max(1.2 * self.spacing())
+    }
+
+    /// Weight less buoyancy of the solids over their volume [N/m³].
+    pub fn drive(&self) -> f64 {
+        (self.scene.solids_density() - self.sph.medium.density) * self.scene.gravity
+    }
+
+    /// Largest excess pressure: that under all grains at their terminal speed [Pa].
+    pub fn excess_pressure(&self) -> f64 {
+        (1.0 - self.scene.porosity) * self.drive() * self.scene.column.height
+    }
+
+    /// Sound speed [m/s]: ten times any speed, and one per cent of density change.
+    pub fn sound_speed(&self) -> f64 {
+        let (density, height) = (self.sph.medium.density, self.scene.column.height);
+        match self.sph.scheme.sound_speed {
+            SoundSpeed::Value(value) => value,
+            SoundSpeed::FreeFall => 20.0 * (2.0 * self.scene.gravity * height).sqrt(),
+            SoundSpeed::Automatic => {
+                let carried = match self.sph.scheme.hydrostatics {
+                    Hydrostatics::Split => 0.0,
+                    Hydrostatics::Carried => density * self.scene.gravity * height,
+                };
+                let pressure = self.excess_pressure() + carried;
+                let compression = (pressure / (COMPRESSION * density)).sqrt();
+                compression.max(10.0 * self.scene.greatest_settling_speed())
+            }
+        }
+    }
+
+    /// Longest safe fluid step [s] and the limit that sets it.
+    pub fn step_limit(&self) -> (f64, &'static str) {
+        let medium = self.sph.medium;
+        let h = 1.5 * self.spacing();
+        let acoustic = COURANT * h / self.sound_speed();
+        let artificial = self.sph.scheme.artificial_viscosity.unwrap_or(0.0);
+        let nu = medium.viscosity / medium.density + artificial * self.sound_speed() * h / 9.0;
+        let viscous = 0.125 * h * h / nu;
+        if viscous < acoustic {
+            (viscous, "0.125 h²/ν")
+        } else {
+            (acoustic, "0.4 h/c")
+        }
+    }
+
+    /// Step [s] of the run: the given or the longest safe one, shortened to divide the duration.
+    pub fn step(&self) -> f64 {
+        let wanted = self.sph.scheme.time_step.unwrap_or(self.step_limit().0);
+        self.scene.duration / (self.scene.duration / wanted).ceil().max(1.0)
+    }
+
+    /// Fluid particles, wall layers left out.
+    pub fn count(&self) -> u64 {
+        let side = (self.scene.column.width / self.spacing()).round() as u64;
+        side * side * (self.scene.column.height / self.spacing()).round() as u64
+    }
+}
