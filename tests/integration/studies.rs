@@ -18,9 +18,9 @@ fn particles_per_side(point: &Point) -> f64 {
     let Work::Simulation(scene) = &point.work else {
         panic!("a simulation")
     };
-    let (fluid, column, grains) = match scene {
-        Scene::SingleSphere(sphere) => (&sphere.fluid, sphere.column, sphere.grains),
-        Scene::ConstantPorosityBlock(block) => (&block.fluid, block.column, block.grains),
+    let (fluid, column, diameter) = match scene {
+        Scene::SingleSphere(sphere) => (&sphere.fluid, sphere.column, sphere.grains.diameter),
+        Scene::ConstantPorosityBlock(block) => (&block.fluid, block.column, block.classes[0].diameter),
         Scene::BinaryCollision(_) | Scene::Sedimentation(_) | Scene::Suspension(_) => {
             panic!("a scene with a fluid")
         }
@@ -28,7 +28,7 @@ fn particles_per_side(point: &Point) -> f64 {
     let Fluid::Sph(fluid) = fluid else {
         panic!("a particle fluid")
     };
-    column.width / (fluid.spacing_over_diameter * grains.diameter)
+    column.width / (fluid.spacing_over_diameter * diameter)
 }
 
 #[test]

@@ -9,7 +9,7 @@ use super::quantity::{
     TimeStepSpec, Viscosity,
 };
 use super::sedimentation::SedimentationSpec;
-use super::suspension::SuspensionSpec;
+use super::suspension::{SuspendedClassSpec, SuspensionSpec};
 
 /// A scene: its name with its fields.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
@@ -54,7 +54,12 @@ pub struct SingleSphereSpec {
 
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 pub struct BlockSpec {
-    pub grains: GrainsSpec,
+    /// The grains, when there is one class of them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub grains: Option<GrainsSpec>,
+    /// One to four classes of grains, mixed evenly on the lattice, in place of `grains`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub classes: Option<Vec<SuspendedClassSpec>>,
     pub drag: DragSpec,
     pub fluid: FluidSpec,
     pub column: ColumnSpec,
@@ -175,6 +180,8 @@ pub struct SchemeSpec {
     pub stress_density: PhaseSpec,
     /// Slip velocity that enters the drag law.
     pub slip: SlipSpec,
+    /// Length over which each class of grains is coupled to the fluid, where there are several.
+    pub coupling_lengths: CouplingLengthsSpec,
     /// Contact stiffness.
     pub stiffness: StiffnessSpec,
     /// Grain steps per contact time.
@@ -197,6 +204,7 @@ impl Default for SchemeSpec {
             start: StartSpec::Exact,
             stress_density: PhaseSpec::Superficial,
             slip: SlipSpec::Superficial,
+            coupling_lengths: CouplingLengthsSpec::PerClass,
             stiffness: StiffnessSpec::Automatic,
             steps_per_contact: Fraction(20.0),
             time_step: TimeStepSpec::Automatic,
@@ -255,6 +263,21 @@ pub enum PhaseSpec {
 pub enum SlipSpec {
     Superficial,
     Interstitial,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum CouplingLengthsSpec {
+    /// Each class its own.
+    PerClass,
+    /// That of the smallest grains for all.
+    Smallest,
+    /// That of the largest grains for all.
+    Largest,
+    /// Larger grains over their own length to the fluid, then over the smallest among the fluid.
+    DoubleSmoothing,
+    /// The same as Raso (2014), eq. 3.10, prints it.
+    DoubleSmoothingLiteral,
 }
 
 /// `value(t) = limit · (1 + error · scale^order) · (1 − exp(−t / time_constant))`.

@@ -8,9 +8,9 @@ mod suspension;
 pub use snapshot::Snapshots;
 
 use kynch_sim::scene::{
-    Column, ConstantPorosityBlock, Coupling, Drag, Fluid, Grains, Hydrostatics, KernelChoice, Medium,
+    Column, ConstantPorosityBlock, Coupling, CouplingLengths, Drag, Fluid, Grains, Hydrostatics, KernelChoice, Medium,
     PorosityPath, Scene, Scheme, SelfDisturbance, SharpeningChoice, SingleSphere, Slip, SoundSpeed, SphFluid,
-    Start, StressDensity,
+    Start, StressDensity, SuspendedClass,
 };
 
 use super::faults::{Fault, faults};
@@ -31,7 +31,9 @@ pub fn completed(mut spec: SceneSpec, snapshots: &Snapshots) -> SceneSpec {
         snapshots.fill(snapshot);
     }
     if let SceneSpec::ConstantPorosityBlock(block) = &mut spec {
-        let pitch = cubic_pitch(block.grains.diameter.0, block.porosity.0);
+        let classes = suspension::classes(&block.grains, &block.classes);
+        let volume = |class: &SuspendedClass| class.share * std::f64::consts::PI / 6.0 * class.diameter.powi(3);
+        let pitch = cubic_pitch(classes.iter().map(volume).sum(), block.porosity.0);
         let width = block.column.width.0;
         block.grains_per_side.get_or_insert(count(width / pitch));
         let thickness = block.thickness.map(|thickness| thickness.0);
@@ -65,9 +67,8 @@ fn sharpen(spec: &mut SceneSpec) {
     }
 }
 
-/// Distance of neighbours in a cubic lattice of the given porosity [m].
-fn cubic_pitch(diameter: f64, porosity: f64) -> f64 {
-    let volume = std::f64::consts::PI / 6.0 * diameter.powi(3);
+/// Distance [m] of neighbours in a cubic lattice of grains of a volume [m³] at the given porosity.
+fn cubic_pitch(volume: f64, porosity: f64) -> f64 {
     (volume / (1.0 - porosity)).cbrt()
 }
 
@@ -106,7 +107,7 @@ pub fn work(spec: &SceneSpec) -> Work {
         })),
         SceneSpec::ConstantPorosityBlock(block) => {
             Work::Simulation(Scene::ConstantPorosityBlock(ConstantPorosityBlock {
-                grains: grains(&block.grains),
+                classes: suspension::classes(&block.grains, &block.classes),
                 drag: drag(block.drag),
                 fluid: fluid(&block.fluid),
                 column: column(&block.column),
@@ -141,12 +142,21 @@ pub fn refusals(spec: &SceneSpec, work: &Work) -> Vec<Fault> {
             found.map(|fault| sedimentation::placed(spec, fault)).collect()
         }
         SceneSpec::Suspension(spec) => {
-            let contradictions = suspension::contradictions(spec);
+            let contradictions = suspension::contradictions("suspension", &spec.grains, &spec.classes);
             if !contradictions.is_empty() {
                 return contradictions;
             }
             let found = faults(work).into_iter();
-            found.map(|fault| suspension::placed(spec, fault)).collect()
+            found.map(|fault| suspension::placed(&spec.classes, fault)).collect()
+        }
+        SceneSpec::ConstantPorosityBlock(spec) => {
+            let name = "constant_porosity_block";
+            let contradictions = suspension::contradictions(name, &spec.grains, &spec.classes);
+            if !contradictions.is_empty() {
+                return contradictions;
+            }
+            let found = faults(work).into_iter();
+            found.map(|fault| suspension::placed(&spec.classes, fault)).collect()
         }
         _ => faults(work),
     }
@@ -260,6 +270,13 @@ fn scheme(spec: &SchemeSpec) -> Scheme {
             SlipSpec::Superficial => Slip::Superficial,
             SlipSpec::Interstitial => Slip::Interstitial,
         },
+        coupling_lengths: match spec.coupling_lengths {
+            CouplingLengthsSpec::PerClass => CouplingLengths::PerClass,
+            CouplingLengthsSpec::Smallest => CouplingLengths::Smallest,
+            CouplingLengthsSpec::Largest => CouplingLengths::Largest,
+            CouplingLengthsSpec::DoubleSmoothing => CouplingLengths::DoubleSmoothing,
+            CouplingLengthsSpec::DoubleSmoothingLiteral => CouplingLengths::DoubleSmoothingLiteral,
+        },
         stiffness: match spec.stiffness {
             StiffnessSpec::Automatic => None,
             StiffnessSpec::Value(stiffness) => Some(stiffness),
@@ -299,7 +316,7 @@ mod tests {
             (6.0e-3, 0.8, 44),
         ] {
             assert_eq!(
-                count(width / cubic_pitch(1e-4, porosity)),
+                count(width / cubic_pitch(std::f64::consts::PI / 6.0 * 1e-12, porosity)),
                 side,
                 "{width} {porosity}"
             );

@@ -5,12 +5,13 @@ use kynch_sim::scene::{Homogeneity, SoftContact, SuspendedClass, SuspendingFluid
 use super::{coefficient, column, drag, medium, sph};
 use crate::study::faults::Fault;
 use crate::study::spec::quantity::{StiffnessSpec, TimeStepSpec};
+use crate::study::spec::scene::GrainsSpec;
 use crate::study::spec::suspension::*;
 
 /// The scene with the first seed; a point sets its own.
 pub fn suspension(spec: &SuspensionSpec) -> Suspension {
     Suspension {
-        classes: classes(spec),
+        classes: classes(&spec.grains, &spec.classes),
         porosity: spec.porosity.0,
         column: column(&spec.column),
         arrangement: match spec.arrangement {
@@ -45,14 +46,15 @@ pub fn suspension(spec: &SuspensionSpec) -> Suspension {
     }
 }
 
-fn classes(spec: &SuspensionSpec) -> Vec<SuspendedClass> {
-    let one = spec.grains.iter().map(|grains| SuspendedClass {
+/// The classes of grains, whichever way they are given.
+pub fn classes(grains: &Option<GrainsSpec>, several: &Option<Vec<SuspendedClassSpec>>) -> Vec<SuspendedClass> {
+    let one = grains.iter().map(|grains| SuspendedClass {
         diameter: grains.diameter.0,
         density: grains.density.0,
         share: 1.0,
     });
-    let several = |classes: &Vec<SuspendedClassSpec>| classes.iter().map(class).collect();
-    spec.classes.as_ref().map_or_else(|| one.collect(), several)
+    let listed = |classes: &Vec<SuspendedClassSpec>| classes.iter().map(class).collect();
+    several.as_ref().map_or_else(|| one.collect(), listed)
 }
 
 fn class(spec: &SuspendedClassSpec) -> SuspendedClass {
@@ -63,14 +65,18 @@ fn class(spec: &SuspendedClassSpec) -> SuspendedClass {
     }
 }
 
-/// What contradicts itself as it is written.
-pub fn contradictions(spec: &SuspensionSpec) -> Vec<Fault> {
+/// What contradicts itself in the grains of a scene as they are written.
+pub fn contradictions(
+    scene: &str,
+    grains: &Option<GrainsSpec>,
+    classes: &Option<Vec<SuspendedClassSpec>>,
+) -> Vec<Fault> {
     let fault = |path: &str, message: &str, help: &str| Fault {
         path: path.to_owned(),
         message: message.to_owned(),
         help: help.to_owned(),
     };
-    match (&spec.grains, &spec.classes) {
+    match (grains, classes) {
         (Some(_), Some(_)) => vec![fault(
             "classes",
             "`grains` and `classes` are both given",
@@ -78,7 +84,7 @@ pub fn contradictions(spec: &SuspensionSpec) -> Vec<Fault> {
         )],
         (None, None) => vec![fault(
             "grains",
-            "`grains` is missing from `suspension`",
+            &format!("`grains` is missing from `{scene}`"),
             "add `grains:` with diameter and density, or a list `classes:` of them with their shares",
         )],
         _ => Vec::new(),
@@ -86,8 +92,8 @@ pub fn contradictions(spec: &SuspensionSpec) -> Vec<Fault> {
 }
 
 /// Where a fault of the scene stands in the file: a scene of one class may list it all the same.
-pub fn placed(spec: &SuspensionSpec, mut fault: Fault) -> Fault {
-    if let (Some(_), Some(rest)) = (&spec.classes, fault.path.strip_prefix("grains.")) {
+pub fn placed(classes: &Option<Vec<SuspendedClassSpec>>, mut fault: Fault) -> Fault {
+    if let (Some(_), Some(rest)) = (classes, fault.path.strip_prefix("grains.")) {
         fault.path = format!("classes.0.{rest}");
     }
     fault

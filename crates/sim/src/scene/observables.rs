@@ -189,6 +189,12 @@ const BLOCK: &[Row] = &[
         "rms departure of the fluid's porosity from its mean, deep inside the block at the end, over the mean",
     ),
     (
+        "edge_width",
+        "m",
+        Scalar,
+        "solids fraction deep inside the block over the steepest slope of the porosity profile",
+    ),
+    (
         "slip_velocity_1",
         "m/s",
         Series,

@@ -102,6 +102,14 @@ pub fn axis<L: PolydisperseLaw>(simulation: &Simulation<L>) -> Table {
     }
 }
 
+/// Steepest slope [1/m] of a profile: its second column over its first, from one row to the next.
+pub fn steepest(profile: &Table) -> f64 {
+    let (heights, values) = (&profile.columns[0].values, &profile.columns[1].values);
+    (heights.windows(2).zip(values.windows(2)))
+        .map(|(z, value)| ((value[1] - value[0]) / (z[1] - z[0])).abs())
+        .fold(0.0, f64::max)
+}
+
 /// Mean height of the grains [m].
 fn middle_height<L: PolydisperseLaw>(simulation: &Simulation<L>) -> f64 {
     let grains = &simulation.grains.grains;

@@ -223,8 +223,13 @@ impl Recorder {
                 push("self_disturbance_error", "1", gap / wake);
             }
         }
+        let profiles = super::profiles::fluid(simulation);
+        if !self.isolated {
+            let solids = 1.0 - super::profiles::plateau_porosity(simulation);
+            push("edge_width", "m", solids / super::profiles::steepest(&profiles[0]));
+        }
         let mut tables = vec![self.series()];
-        tables.extend(super::profiles::fluid(simulation));
+        tables.extend(profiles);
         if !self.isolated {
             tables.push(super::profiles::axis(simulation));
         }
