@@ -18,6 +18,7 @@ pub fn filtration(spec: &FiltrationSpec) -> Filtration {
         filtrate: filtrate(&spec.filtrate),
         crossflow,
         deposited: match spec.deposited {
+            DepositedSpec::Slow => Deposited::Slow,
             DepositedSpec::Settled => Deposited::Settled,
             DepositedSpec::Carried => Deposited::Carried,
         },
