@@ -4,6 +4,7 @@ pub mod bracket;
 mod check;
 pub mod convergence;
 pub mod exit;
+pub mod fit;
 mod interpolation;
 pub mod model;
 pub mod pareto;

@@ -75,7 +75,7 @@ impl Sample {
 }
 
 /// The quantile for the whole degrees of freedom at or below; beyond 30 the first terms of its expansion.
-fn student(freedom: f64) -> f64 {
+pub(super) fn student(freedom: f64) -> f64 {
     let whole = (freedom + 1e-9).floor().max(1.0);
     match STUDENT.get(whole as usize - 1) {
         Some(quantile) => *quantile,
