@@ -9,7 +9,7 @@ use super::console::Console;
 use super::estimate::Rate;
 use super::status::{Problem, Status};
 use super::{physics, plan, verdicts};
-use crate::judge::judge;
+use crate::judge::{derive::derive, judge};
 use crate::runner::{self, Options, State, survey};
 use crate::store::{self, Store, StoreError};
 use crate::study::model::{Point, Study};
@@ -158,6 +158,7 @@ pub fn make_report(
     if let Some(last) = options.seeds {
         study.seeds = (1..=last).collect();
     }
+    derive(&study, &mut runs);
     let judged = judge(&study, &runs);
     let index = report::render(&study, &runs, &judged, &reporting.out.join(&study.name))?;
     let told = report::told::told(&study, &runs, &judged);

@@ -34,6 +34,7 @@ pub fn study() -> Study {
         }],
         seeds: vec![1],
         calibrated: Vec::new(),
+        derive: Vec::new(),
         observe: vec!["limit".into()],
         expect: Vec::new(),
         figures: Vec::new(),

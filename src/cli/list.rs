@@ -15,7 +15,7 @@ const LAWS: [Drag; 5] = [
     Drag::CoulsonRichardson,
 ];
 
-/// Studies, scenes, drag laws, expectations, references and figures with one line each.
+/// Studies, scenes, drag laws, derived quantities, expectations, references and figures with one line each.
 pub fn list(paint: Paint) -> String {
     let mut text = String::new();
     entries(&mut text, paint, "studies", &study::list());
@@ -26,6 +26,7 @@ pub fn list(paint: Paint) -> String {
         "drag laws",
         LAWS.iter().map(|law| (name(*law), meaning(*law).to_string())),
     );
+    entries(&mut text, paint, "derived quantities", &study::derivations());
     entries(&mut text, paint, "expectations", &study::expectations());
     let references = reference::list();
     let lines = references

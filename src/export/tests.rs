@@ -79,6 +79,7 @@ fn run() -> Run {
                 columns: columns.collect(),
             },
         ],
+        derived: Vec::new(),
         timing: Timing::default(),
     }
 }

@@ -3,6 +3,7 @@
 pub mod bracket;
 mod check;
 pub mod convergence;
+pub mod derive;
 pub mod exit;
 pub mod fit;
 mod interpolation;
@@ -76,6 +77,10 @@ fn verdict(study: &Study, runs: &[Run], expectation: &Expectation) -> Verdict {
         Check::Scaling { of, over, is, within } => {
             let chains = select::chains(study, runs, &groups, over);
             check::scaling::check(&chains, of, over, *is, *within)
+        }
+        Check::Fit(fit) => {
+            let chains = select::chains(study, runs, &groups, &fit.law.over);
+            check::fit::check(&chains, fit)
         }
         Check::Status { is } => check::status::check(&groups, is),
         Check::Limit(limit) => {

@@ -1,7 +1,9 @@
 //! An expectation in words.
 
 use super::words::{band, percent, relation, selection, significant};
-use crate::study::model::{Band, Check, Comparison, Ending, Limit, Norm, Relation};
+use crate::study::model::{
+    Band, Check, Comparison, Ending, FitTarget, FittedLaw, LawFit, Limit, Norm, Parameter, Relation,
+};
 
 pub struct Phrase {
     pub statement: String,
@@ -34,6 +36,7 @@ impl Phrase {
             } => monotone(of, over, *rising, *within_noise),
             Check::Compare(comparison) => compare(comparison),
             Check::Scaling { of, over, is, within } => scaling(of, over, *is, *within),
+            Check::Fit(fit) => fitted(fit),
             Check::Status { is } => status(is),
             Check::Limit(limit) => left(limit),
         }
@@ -109,6 +112,37 @@ fn scaling(of: &str, over: &str, is: f64, within: f64) -> Phrase {
             significant(is - within, 6),
             significant(is + within, 6)
         ),
+    }
+}
+
+fn fitted(fit: &LawFit) -> Phrase {
+    let FittedLaw { of, over, .. } = &fit.law;
+    let parameter = match fit.parameter {
+        Parameter::Exponent => "exponent",
+        Parameter::Velocity => "velocity at porosity 1",
+    };
+    let called = format!("Richardson–Zaki {parameter} of `{of}` over `{over}`");
+    let (statement, band) = match &fit.target {
+        FitTarget::Reference { against, below } => (
+            format!(
+                "{called} differs from that of the reference `{against}` by < {}",
+                percent(*below)
+            ),
+            format!("< {}", significant(*below, 6)),
+        ),
+        FitTarget::Band(bounds) => {
+            let words = band(bounds);
+            let link = match (bounds.above, bounds.below) {
+                (Some(_), Some(_)) => " in ",
+                _ => " ",
+            };
+            (format!("{called}{link}{words}"), words)
+        }
+    };
+    Phrase {
+        statement,
+        quantity: format!("{parameter} of {of} over {over}"),
+        band,
     }
 }
 

@@ -90,7 +90,10 @@ pub fn point_error(run: &Run, of: &str, against: &str, norm: Norm) -> Result<Poi
 }
 
 /// Refuses to compare a speed with a time.
-fn same_dimension((of, unit): (&str, &str), (against, other): (&str, &str)) -> Result<(), Undecided> {
+pub(super) fn same_dimension(
+    (of, unit): (&str, &str),
+    (against, other): (&str, &str),
+) -> Result<(), Undecided> {
     study::comparable(unit, other)
         .map_err(|(one, other)| Undecided(format!("`{of}` is {one}, the reference `{against}` is {other}")))
 }
@@ -144,8 +147,11 @@ pub fn mean_error(
         .map(|run| point_error(run, of, against, norm))
         .collect::<Result<_, _>>()?;
     let sample = |number: fn(&PointError) -> f64| Sample::of(errors.iter().map(number));
-    let signed = sample(|error| error.signed);
-    let computed = sample(|error| error.computed);
+    let (mut signed, mut computed) = (sample(|error| error.signed), sample(|error| error.computed));
+    if let [run] = replicates.runs.as_slice() {
+        computed.own = run.derived(of).map_or(0.0, |derived| derived.half_width);
+        signed.own = computed.own / errors[0].expected.abs();
+    }
     Ok(PointError {
         expected: sample(|error| error.expected).mean,
         computed: computed.mean,
@@ -173,7 +179,10 @@ pub fn mean_scalar(replicates: &Replicates, of: &str) -> Result<Mean, Undecided>
         values.push(value);
         unit = its_unit.to_string();
     }
-    let sample = Sample::of(values);
+    let mut sample = Sample::of(values);
+    if let [run] = replicates.runs.as_slice() {
+        sample.own = run.derived(of).map_or(0.0, |derived| derived.half_width);
+    }
     Ok(Mean {
         value: sample.mean,
         sample,
@@ -194,6 +203,9 @@ pub(super) fn series<'a>(run: &'a Run, of: &str) -> Result<(&'a [f64], &'a [f64]
 }
 
 fn missing(run: &Run, of: &str) -> Undecided {
+    if let Some(fault) = run.derived(of).and_then(|derived| derived.fault.as_ref()) {
+        return Undecided(format!("`{of}` cannot be derived: {fault}"));
+    }
     let mut names: Vec<&str> = run.scalars.iter().map(|scalar| scalar.name.as_str()).collect();
     if let Some(table) = run.table("time_series") {
         names.extend(table.columns.iter().skip(1).map(|column| column.name.as_str()));

@@ -334,6 +334,7 @@ fn sketch(point: &Point) -> Run {
         scalars: Vec::new(),
         counters: Vec::new(),
         tables: Vec::new(),
+        derived: Vec::new(),
         timing: Timing::default(),
     }
 }

@@ -12,6 +12,9 @@ const STUDENT: [f64; 30] = [
     2.120, 2.110, 2.101, 2.093, 2.086, 2.080, 2.074, 2.069, 2.064, 2.060, 2.056, 2.052, 2.048, 2.045, 2.042,
 ];
 
+/// Two-sided 95 % quantile of the normal distribution.
+const NORMAL: f64 = 1.960;
+
 /// A mean over seeds in the unit of its values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
@@ -19,6 +22,8 @@ pub struct Sample {
     pub mean: f64,
     /// Sample standard deviation; zero for one value.
     pub deviation: f64,
+    /// Half width of the 95 % confidence interval that a single value comes with; zero for none.
+    pub own: f64,
 }
 
 impl Sample {
@@ -37,18 +42,31 @@ impl Sample {
             count,
             mean,
             deviation,
+            own: 0.0,
         }
     }
 
-    /// Standard error of the mean; zero for one value.
+    /// One value that comes with an interval of its own. Over several seeds their scatter tells more.
+    pub fn measured(value: f64, half_width: f64) -> Sample {
+        Sample {
+            own: half_width,
+            ..Sample::of([value])
+        }
+    }
+
+    /// Standard error of the mean; for one value, what its own interval says.
     pub fn standard_error(&self) -> f64 {
+        if self.count == 1 {
+            return self.own / NORMAL;
+        }
         self.deviation / (self.count as f64).sqrt()
     }
 
-    /// Half width of the 95 % confidence interval of the mean; zero for one value, of which nothing is known.
+    /// Half width of the 95 % confidence interval of the mean; for one value its own, zero where nothing is
+    /// known of it.
     pub fn half_width(&self) -> f64 {
         match self.count {
-            0 | 1 => 0.0,
+            0 | 1 => self.own,
             count => student((count - 1) as f64) * self.standard_error(),
         }
     }
@@ -70,7 +88,11 @@ impl Sample {
             count => variance.powi(2) / (count - 1) as f64,
         };
         let freedom = total.powi(2) / (share(variances[0], self) + share(variances[1], other));
-        student(freedom) * total.sqrt()
+        // Intervals of single values hold their quantile already.
+        match freedom.is_finite() {
+            true => student(freedom) * total.sqrt(),
+            false => NORMAL * total.sqrt(),
+        }
     }
 }
 
@@ -79,7 +101,7 @@ pub(super) fn student(freedom: f64) -> f64 {
     let whole = (freedom + 1e-9).floor().max(1.0);
     match STUDENT.get(whole as usize - 1) {
         Some(quantile) => *quantile,
-        None => 1.960 + 2.372 / freedom,
+        None => NORMAL + 2.372 / freedom,
     }
 }
 

@@ -52,6 +52,7 @@ fn rehearse(scene: &str, scale: f64, error: f64) -> Run {
             .rev()
             .collect(),
         }],
+        derived: Vec::new(),
         timing: Timing::default(),
     }
 }
@@ -83,6 +84,7 @@ fn study(expect: Vec<Expectation>) -> Study {
         axes: Vec::<Axis>::new(),
         seeds: vec![1],
         calibrated: Vec::new(),
+        derive: Vec::new(),
         observe: Vec::new(),
         expect,
         figures: Vec::new(),

@@ -100,20 +100,7 @@ pub fn axis_unit<'a>(study: &'a Study, name: &str) -> &'a str {
 
 /// A run in words: scene, axes, and the seed where the study has several.
 pub fn label(study: &Study, run: &Run) -> String {
-    let mut parts = Vec::new();
-    if study.scenes.len() > 1 {
-        parts.push(format::words(&run.scene));
-    }
-    let mut kept: Vec<&str> = Vec::new();
-    for (name, value) in &run.axes {
-        if !kept
-            .iter()
-            .any(|earlier| carries(study, &run.scene, earlier, name))
-        {
-            parts.push(named(study, name, value));
-            kept.push(name);
-        }
-    }
+    let mut parts = setting(study, run, |_, _| true);
     if study.seeds.len() > 1 {
         parts.push(format!("seed {}", run.seed));
     }
@@ -122,6 +109,33 @@ pub fn label(study: &Study, run: &Run) -> String {
     } else {
         parts.join(", ")
     }
+}
+
+/// A run in words: its scene and the axes that are wanted.
+pub fn label_of_axes(study: &Study, run: &Run, wanted: impl Fn(&str, &AxisValue) -> bool) -> String {
+    let parts = setting(study, run, wanted);
+    match parts.is_empty() {
+        true => format::words(&run.scene),
+        false => parts.join(", "),
+    }
+}
+
+fn setting(study: &Study, run: &Run, wanted: impl Fn(&str, &AxisValue) -> bool) -> Vec<String> {
+    let mut parts = Vec::new();
+    if study.scenes.len() > 1 {
+        parts.push(format::words(&run.scene));
+    }
+    let mut kept: Vec<&str> = Vec::new();
+    for (name, value) in run.axes.iter().filter(|(name, value)| wanted(name, value)) {
+        if !kept
+            .iter()
+            .any(|earlier| carries(study, &run.scene, earlier, name))
+        {
+            parts.push(named(study, name, value));
+            kept.push(name);
+        }
+    }
+    parts
 }
 
 /// Whether an axis moves along with an earlier one, so that naming the earlier one says all: to each

@@ -187,7 +187,11 @@ fn with_distinct_names(columns: Vec<Column>) -> Vec<Column> {
 
 fn scalars(runs: &[Run]) -> Vec<(String, String)> {
     let mut found: Vec<(String, String)> = Vec::new();
-    for scalar in runs.iter().flat_map(|run| &run.scalars) {
+    let all = runs.iter().flat_map(|run| {
+        let made = run.derived.iter().map(|derived| &derived.scalar);
+        run.scalars.iter().chain(made)
+    });
+    for scalar in all {
         if !found
             .iter()
             .any(|(name, unit)| *name == scalar.name && *unit == scalar.unit)

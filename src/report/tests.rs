@@ -73,6 +73,7 @@ fn run(scene: usize, spacing: f64) -> Run {
                 columns: vec![column("height", "m", height), column("porosity", "1", porosity)],
             },
         ],
+        derived: Vec::new(),
         timing: Timing {
             wall: (30.0 + 7.0 * scene as f64) / spacing.powf(3.2),
             cpu: 29.0 / spacing.powf(3.2),
@@ -168,6 +169,7 @@ fn study() -> Study {
         ],
         seeds: vec![1],
         calibrated: Vec::new(),
+        derive: Vec::new(),
         observe: vec!["terminal_velocity".into()],
         expect: vec![Expectation {
             id: "error-1".into(),

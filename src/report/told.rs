@@ -4,6 +4,7 @@
 use super::{format, selection};
 use crate::judge::model::{Outcome, PointVerdict, Verdict};
 use crate::judge::select::label as words;
+use crate::judge::words::axis_value;
 use crate::store::model::Run;
 use crate::study::model::Study;
 
@@ -62,6 +63,8 @@ pub fn found_at(point: &PointVerdict, unit: &str) -> Option<String> {
 
 /// Between the two sides of a comparison.
 const BESIDE: &str = " beside ";
+/// Between what is fixed and the axis that a law is fitted along.
+const ALONG: &str = " along ";
 
 fn numbers(
     error: Option<f64>,
@@ -110,7 +113,14 @@ fn failing(verdict: &Verdict) -> Option<String> {
     if verdict.points.len() == 1 {
         return Some(format!("{}: {found}", worst.label));
     }
-    let of = verdict.points.len();
+    let of = verdict
+        .points
+        .iter()
+        .filter(|point| point.holds.is_some())
+        .count();
+    if of == 1 {
+        return Some(format!("{}: {found}", worst.label));
+    }
     Some(format!(
         "{fails} of {of} points fail; farthest off is {}: {found}",
         worst.label
@@ -127,6 +137,14 @@ fn name(study: &Study, runs: &[Run], point: &PointVerdict) -> Option<String> {
         return Some(format!("{}{BESIDE}{}", side(first)?, side(second)?));
     }
     let run = runs.iter().find(|run| run.id.0 == point.id)?;
+    if let Some((fixed, axis)) = point.label.split_once(ALONG) {
+        let fixed = selection::label_of_axes(study, run, |name, value| {
+            fixed
+                .split(' ')
+                .any(|part| part == format!("{name}={}", axis_value(value)))
+        });
+        return Some(format!("{fixed}{ALONG}{}", format::words(axis)));
+    }
     Some(named(study, run, &point.label))
 }
 

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::{format, told};
 use crate::judge::model::{Outcome, Verdict};
 use crate::reference;
-use crate::study::model::{Check, Limit, Study};
+use crate::study::model::{Check, FitTarget, LawFit, Limit, Study};
 
 #[derive(Serialize)]
 pub struct VerdictRow {
@@ -121,8 +121,13 @@ pub fn verdict_row(study: &Study, verdict: &Verdict) -> VerdictRow {
 /// What the reference of an expectation is, as the list of references says it.
 fn meaning(study: &Study, id: &str) -> Option<String> {
     let expectation = study.expect.iter().find(|expectation| expectation.id == id)?;
-    let (Check::Error { against, .. } | Check::Order { against, .. } | Check::Limit(Limit { against, .. })) =
-        &expectation.check
+    let (Check::Error { against, .. }
+    | Check::Order { against, .. }
+    | Check::Limit(Limit { against, .. })
+    | Check::Fit(LawFit {
+        target: FitTarget::Reference { against, .. },
+        ..
+    })) = &expectation.check
     else {
         return None;
     };

@@ -171,6 +171,7 @@ fn blank(study: &str, planned: &Planned) -> Run {
         scalars: Vec::new(),
         counters: Vec::new(),
         tables: Vec::new(),
+        derived: Vec::new(),
         timing: Timing::default(),
     }
 }

@@ -57,7 +57,20 @@ pub struct Run {
     pub counters: Vec<(String, u64)>,
     /// Time series and profiles.
     pub tables: Vec<Table>,
+    /// What a study makes of the tables; never stored.
+    pub derived: Vec<Derived>,
     pub timing: Timing,
+}
+
+/// A number that a study makes of the series of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Derived {
+    /// NaN where there is none.
+    pub scalar: Scalar,
+    /// Half width of its 95 % confidence interval; zero where there is none.
+    pub half_width: f64,
+    /// Why there is no number.
+    pub fault: Option<String>,
 }
 
 /// A named number with its unit.
@@ -85,7 +98,14 @@ pub struct Column {
 
 impl Run {
     pub fn scalar(&self, name: &str) -> Option<&Scalar> {
-        self.scalars.iter().find(|scalar| scalar.name == name)
+        let made = self.derived.iter().filter(|derived| derived.fault.is_none());
+        let all = self.scalars.iter().chain(made.map(|derived| &derived.scalar));
+        all.into_iter().find(|scalar| scalar.name == name)
+    }
+
+    /// What the study made under a name, found or not.
+    pub fn derived(&self, name: &str) -> Option<&Derived> {
+        self.derived.iter().find(|derived| derived.scalar.name == name)
     }
 
     /// A number of the run with its unit: a scalar, `counters.NAME`, `timings.wall` or `timings.cpu`.

@@ -333,6 +333,7 @@ pub(super) fn decode(reader: &Reader, row: usize) -> Result<Row, StoreError> {
             .map(counter)
             .collect::<Result<_, StoreError>>()?,
         tables: Vec::new(),
+        derived: Vec::new(),
         timing: Timing::default(),
     };
     Ok(Row {

@@ -31,6 +31,7 @@ fn run(number: u64, value: f64) -> Run {
             name: "time_series".into(),
             columns: vec![column("time", vec![0.0, value])],
         }],
+        derived: Vec::new(),
         timing: Timing::default(),
     }
 }

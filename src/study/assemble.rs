@@ -88,9 +88,15 @@ fn build(path: &Path, root: &Node, problems: &mut Problems) -> Option<Study> {
     let context = Context {
         works: &works,
         axes: &axes,
+        derived: &[],
         complete: true,
         plan: &plan,
         shapes: &shapes,
+    };
+    let derive = statements::derived(root, &context, problems);
+    let context = Context {
+        derived: &derive,
+        ..context
     };
     let expect = statements::expectations(root, &context, problems);
     let figures = statements::figures(root, &context, problems);
@@ -111,6 +117,7 @@ fn build(path: &Path, root: &Node, problems: &mut Problems) -> Option<Study> {
         axes: axes.into_iter().map(|axis| axis.axis).collect(),
         seeds,
         calibrated,
+        derive: derive.clone(),
         observe,
         expect,
         figures,
@@ -143,9 +150,15 @@ fn check_the_rest(
     let context = Context {
         works: &BTreeMap::new(),
         axes: &[],
+        derived: &[],
         complete: false,
         plan: &Plan::default(),
         shapes,
+    };
+    let derive = statements::derived(root, &context, problems);
+    let context = Context {
+        derived: &derive,
+        ..context
     };
     statements::expectations(root, &context, problems);
     statements::figures(root, &context, problems);

@@ -167,6 +167,11 @@ pub fn scenes() -> Vec<Entry> {
     choices("SceneSpec")
 }
 
+/// Every way to make a number of series, with one line each.
+pub fn derivations() -> Vec<Entry> {
+    choices("DerivedSpec")
+}
+
 /// Every kind of expectation, with one line each.
 pub fn expectations() -> Vec<Entry> {
     choices("ExpectationSpec")

@@ -19,7 +19,7 @@ mod work;
 mod yaml;
 
 pub use assemble::parse;
-pub use file::{Entry, expectations, figures, find, list, load, scenes};
+pub use file::{Entry, derivations, expectations, figures, find, list, load, scenes};
 pub use problem::{Problem, StudyError};
 
 /// A number with a unit (`2 mm`) in SI units; nothing for any other text.

@@ -19,6 +19,8 @@ pub struct Study {
     pub seeds: Vec<u64>,
     /// Inputs that were fitted; empty where none was.
     pub calibrated: Vec<Calibrated>,
+    /// Numbers made of the series of a run, each under a name of its own.
+    pub derive: Vec<Derived>,
     /// Observables to keep, by name.
     pub observe: Vec<String>,
     pub expect: Vec<Expectation>,
@@ -64,6 +66,63 @@ pub struct Calibrated {
     pub against: String,
     /// The points that it was fitted on.
     pub on: Selection,
+}
+
+/// A number made of the time series of each run; a scalar everywhere after.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Derived {
+    pub name: String,
+    /// SI unit, `1` when dimensionless.
+    pub unit: String,
+    pub how: Derivation,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum Derivation {
+    /// Slope of one segment of a series.
+    Slope {
+        of: String,
+        line: Segment,
+        /// Whether falling counts as positive.
+        falling: bool,
+    },
+    /// Time at which a segment of a series joins the next.
+    Breakpoint { of: String, line: Segment },
+    /// Where the lines through two series meet.
+    Crossing {
+        of: [String; 2],
+        line: Segment,
+        take: Coordinate,
+    },
+}
+
+impl Derivation {
+    /// The series that it is made of.
+    pub fn sources(&self) -> &[String] {
+        match self {
+            Derivation::Slope { of, .. } | Derivation::Breakpoint { of, .. } => std::slice::from_ref(of),
+            Derivation::Crossing { of, .. } => of,
+        }
+    }
+}
+
+/// One of the straight segments by which a series is fitted over a window.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment {
+    /// Start and end of the window [s]; those of the series where they are left out.
+    pub window: [Option<f64>; 2],
+    /// Segments over the window.
+    pub segments: usize,
+    /// Its number, from 1; of a breakpoint, that of the segment before.
+    pub which: usize,
+}
+
+/// What is asked of a point in a plane of values over time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Coordinate {
+    #[default]
+    Time,
+    Value,
 }
 
 /// A value on an axis, in SI units.
@@ -285,10 +344,51 @@ pub enum Check {
         is: f64,
         within: f64,
     },
+    /// A parameter of a law fitted over an axis, everything else fixed.
+    Fit(LawFit),
     /// Every selected run ends in one of these ways; divergence counts as an answer where it is named.
     Status { is: Vec<Ending> },
     /// Along an axis, a scalar leaves its band where the reference says; divergence counts as outside.
     Limit(Limit),
+}
+
+/// A parameter of a law that is fitted to a scalar over an axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LawFit {
+    pub law: FittedLaw,
+    pub parameter: Parameter,
+    pub target: FitTarget,
+}
+
+/// v = v_∞ ε^n.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FittedLaw {
+    /// The scalar v.
+    pub of: String,
+    /// Axis of the porosity ε.
+    pub over: String,
+    /// Whether absolute deviations are squared and not relative ones.
+    pub linear: bool,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Parameter {
+    /// n
+    #[default]
+    Exponent,
+    /// v_∞
+    Velocity,
+}
+
+/// What is expected of a fitted parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FitTarget {
+    /// The relative difference from the same fit to a reference at the same points is below a bound.
+    Reference {
+        against: String,
+        below: f64,
+    },
+    Band(Band),
 }
 
 /// The end of a run that a study can ask for.

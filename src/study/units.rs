@@ -163,6 +163,11 @@ pub fn dimension(unit: &str) -> Option<Dimension> {
     }
 }
 
+/// Unit of a quantity over time: `m/s` for `m`.
+pub fn per_time(unit: &str) -> Option<String> {
+    Some(dimension(unit)?.times(Dimension::FREQUENCY).unit())
+}
+
 /// Reads `number unit`.
 ///
 /// # Errors

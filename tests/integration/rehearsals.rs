@@ -61,6 +61,7 @@ pub fn study(scenes: Vec<Rehearsal>) -> Study {
         }],
         seeds: vec![1],
         calibrated: Vec::new(),
+        derive: Vec::new(),
         observe: vec!["limit".into(), "value".into()],
         expect: Vec::new(),
         figures: Vec::new(),

@@ -63,6 +63,7 @@ fn awkward(id: &str) -> Run {
                 columns: Vec::new(),
             },
         ],
+        derived: Vec::new(),
         timing: Timing {
             wall: 1.25,
             cpu: 1.125,

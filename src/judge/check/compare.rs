@@ -1,7 +1,7 @@
 //! A scalar of one selection of points is greater than, less than or equal to that of another.
 
 use super::monotone::NOISE;
-use super::{Finding, Part, blank, spread};
+use super::{Finding, Part, blank, confidence, spread};
 use crate::judge::model::PointVerdict;
 use crate::judge::point_error::{Mean, mean_scalar};
 use crate::judge::select::Replicates;
@@ -84,8 +84,9 @@ fn part(label: &str, first: &Mean, second: &Mean, comparison: &Comparison) -> (P
     let share = if scale > 0.0 { room / scale } else { room };
     let found = found(first, second);
     if uncertain > 0.0 && room.abs() <= uncertain {
+        let (over, remedy) = confidence(pairs_have_seeds(first, second));
         let reason = format!(
-            "{label}: {found}; the difference {} ± {} (95 % confidence over seeds) straddles the limit; run more seeds",
+            "{label}: {found}; the difference {} ± {} (95 % confidence {over}) straddles the limit; {remedy}",
             significant(difference, 3),
             significant(uncertain, 3)
         );
@@ -97,6 +98,10 @@ fn part(label: &str, first: &Mean, second: &Mean, comparison: &Comparison) -> (P
         false => Part::fails(format!("{label}: {found}, not {}", relation(comparison))),
     };
     (part, share)
+}
+
+fn pairs_have_seeds(first: &Mean, second: &Mean) -> bool {
+    first.sample.count > 1 || second.sample.count > 1
 }
 
 /// `0.412 beside 0.409, 0.7 % more`

@@ -1,6 +1,6 @@
 //! The relative error against a reference stays below a bound, at every point.
 
-use super::{Finding, Part, blank, erroneous, spread};
+use super::{Finding, Part, blank, confidence, erroneous, spread};
 use crate::judge::model::PointVerdict;
 use crate::judge::point_error::{PointError, mean_error};
 use crate::judge::select::Replicates;
@@ -45,8 +45,9 @@ fn part(group: &Replicates, error: &PointError, below: f64) -> Part {
     let percent_of = |share: f64| format!("{} %", significant(100.0 * share, 3));
     let found = percent_of(error.error);
     if error.half_width > 0.0 && (error.error - below).abs() <= error.half_width {
+        let (over, remedy) = confidence(group.runs.len() > 1);
         return Part::open(format!(
-            "{}: the error {found} ± {} (95 % confidence over seeds) straddles {}; run more seeds",
+            "{}: the error {found} ± {} (95 % confidence {over}) straddles {}; {remedy}",
             group.label(),
             percent_of(error.half_width),
             percent(below)

@@ -2,6 +2,7 @@
 
 pub mod compare;
 pub mod error;
+pub mod fit;
 pub mod limit;
 pub mod monotone;
 pub mod order;
@@ -115,8 +116,17 @@ pub fn erroneous(replicates: &Replicates, error: &PointError) -> PointVerdict {
 /// The largest half width of a confidence interval, in words.
 pub fn spread(replicates: &[Replicates], largest: f64) -> Option<String> {
     let several = replicates.iter().any(|group| group.runs.len() > 1);
-    several.then(|| {
+    let (over, _) = confidence(several);
+    (several || largest > 0.0).then(|| {
         let words = super::words::significant(largest, 3);
-        format!("95 % confidence half width over seeds at most {words}")
+        format!("95 % confidence half width {over} at most {words}")
     })
+}
+
+/// What an interval is about, and what makes it narrower.
+pub fn confidence(several_seeds: bool) -> (&'static str, &'static str) {
+    match several_seeds {
+        true => ("over seeds", "run more seeds"),
+        false => ("of the fit", "run several seeds, or fit a longer window"),
+    }
 }

@@ -1,6 +1,6 @@
 //! A scalar lies in a band, at every point.
 
-use super::{Finding, Part, blank, spread};
+use super::{Finding, Part, blank, confidence, spread};
 use crate::judge::model::PointVerdict;
 use crate::judge::point_error::{Mean, mean_scalar};
 use crate::judge::select::Replicates;
@@ -50,8 +50,9 @@ fn part(group: &Replicates, of: &str, band: &Band, mean: &Mean) -> Part {
     let found = words::significant(mean.value, 6);
     let half_width = mean.sample.half_width();
     if margin.abs() <= half_width && half_width > 0.0 {
+        let (over, remedy) = confidence(group.runs.len() > 1);
         return Part::open(format!(
-            "{}: {of} = {found} ± {} (95 % confidence over seeds) straddles a limit; run more seeds",
+            "{}: {of} = {found} ± {} (95 % confidence {over}) straddles a limit; {remedy}",
             group.label(),
             words::significant(half_width, 3)
         ));

@@ -32,6 +32,7 @@ fn bead(times: Vec<f64>, velocities: Vec<f64>) -> Run {
             name: "time_series".to_string(),
             columns: vec![column("time", "s", times), column("velocity", "m/s", velocities)],
         }],
+        derived: Vec::new(),
         timing: Timing::default(),
     }
 }

@@ -148,6 +148,7 @@ mod tests {
                 name: "time_series".into(),
                 columns: vec![column("time", times.to_vec()), column("height", values)],
             }],
+            derived: Vec::new(),
             timing: Timing::default(),
         }
     }

@@ -72,6 +72,7 @@ fn run(density: f64, viscosity: f64, seed: u64) -> Run {
                 ],
             },
         ],
+        derived: Vec::new(),
         timing: Timing::default(),
     }
 }
@@ -153,6 +154,7 @@ fn study(path: &str) -> Study {
         ],
         seeds: (1..=SEEDS).collect(),
         calibrated: Vec::new(),
+        derive: Vec::new(),
         observe: Vec::new(),
         expect: Vec::new(),
         figures: Vec::new(),

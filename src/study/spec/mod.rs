@@ -2,6 +2,7 @@
 //! structural check of a file follows.
 
 pub mod collision;
+pub mod derived;
 pub mod filtration;
 pub mod quantity;
 pub mod scene;
@@ -13,6 +14,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use derived::DerivedSpec;
 use quantity::{Anything, OneOrMore, Scalar, Time};
 use scene::SceneSpec;
 use statement::{CalibratedSpec, ExpectationSpec, FigureSpec};
@@ -39,6 +41,9 @@ pub struct StudySpec {
     /// Inputs that were fitted to some of the points; the others are predictions.
     #[serde(default)]
     pub calibrated: Vec<CalibratedSpec>,
+    /// Numbers made of the series of each run, by name: scalars everywhere after.
+    #[serde(default)]
+    pub derive: BTreeMap<String, DerivedSpec>,
     /// Observables to keep.
     #[serde(default)]
     pub observe: Vec<String>,

@@ -38,6 +38,8 @@ pub enum ExpectationSpec {
     Compare(CompareSpec),
     /// A scalar grows along an axis like a power of it.
     Scaling(ScalingSpec),
+    /// A parameter of a law fitted to a scalar over an axis.
+    Fit(FitSpec),
     /// Every selected run completes, or diverges.
     Status(StatusSpec),
     /// The place on an axis at which a scalar leaves a band lies where a reference says.
@@ -153,6 +155,50 @@ pub struct ScalingSpec {
     pub within: Fraction,
     #[serde(flatten)]
     pub common: Common,
+}
+
+/// Beside the same fit to a reference (`against`, `below`), or in a band.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct FitSpec {
+    /// v = v_∞ ε^n.
+    pub richardson_zaki: RichardsonZakiSpec,
+    /// The parameter judged; the exponent if left out.
+    pub parameter: Option<ParameterSpec>,
+    /// Name of the reference that the same law is fitted to, at the same points.
+    pub against: Option<String>,
+    /// The value expected, together with `within`.
+    pub is: Option<AnyQuantity>,
+    /// Relative half width of the band around `is`.
+    pub within: Option<Fraction>,
+    pub above: Option<AnyQuantity>,
+    /// Bound on the relative difference beside `against`, upper end of the band otherwise.
+    pub below: Option<AnyQuantity>,
+    #[serde(flatten)]
+    pub common: Common,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct RichardsonZakiSpec {
+    /// The settling velocity.
+    pub of: String,
+    /// Axis of the porosity.
+    pub over: String,
+    /// In what the deviations are squared: `logarithmic` for relative ones, if left out.
+    pub scale: Option<ScaleSpec>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ScaleSpec {
+    Logarithmic,
+    Linear,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ParameterSpec {
+    Exponent,
+    Velocity,
 }
 
 #[derive(Clone, Debug, Deserialize, JsonSchema)]

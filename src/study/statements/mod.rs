@@ -4,6 +4,8 @@ mod band;
 mod beside;
 mod calibrated;
 mod comparison;
+mod derived;
+mod fitted;
 mod named;
 mod selection;
 
@@ -13,10 +15,13 @@ use kynch_sim::scene::{Observable, ObservableKind};
 use serde_json::Value as Schema;
 
 pub use calibrated::calibrated;
+pub use derived::derived;
 pub use selection::admitted;
 
 use super::axes::WrittenAxis;
-use super::model::{Check, Comparison, Ending, Expectation, Figure, FigureKind, Limit, Plan, Work};
+use super::model::{
+    Check, Comparison, Derived, Ending, Expectation, Figure, FigureKind, FittedLaw, LawFit, Limit, Plan, Work,
+};
 use super::names::{is_measured_work, measures_of_work, observables};
 use super::nearest::advice;
 use super::problem::Problems;
@@ -35,6 +40,8 @@ pub struct Context<'a> {
     /// Scenes by name, without their axes.
     pub works: &'a BTreeMap<String, Work>,
     pub axes: &'a [WrittenAxis],
+    /// What the study derives of its series.
+    pub derived: &'a [Derived],
     /// Whether scenes and axes could be read; if not, only what does not depend on them is checked.
     pub complete: bool,
     /// Without points when a point is at fault.
@@ -191,6 +198,10 @@ pub fn observe(
         | Check::Monotone { of, .. }
         | Check::Scaling { of, .. }
         | Check::Limit(Limit { of, .. })
+        | Check::Fit(LawFit {
+            law: FittedLaw { of, .. },
+            ..
+        })
         | Check::Compare(Comparison { of, .. }) => Some(of),
         Check::Status { .. } => None,
     });
@@ -203,8 +214,11 @@ pub fn observe(
         FigureKind::Limit { limit, .. } => vec![limit.of.clone()],
         FigureKind::Snapshots { .. } => vec![SNAPSHOTS.to_owned()],
     });
-    for name in of_checks.flatten().cloned().chain(of_figures) {
-        if !observe.contains(&name) && !is_measured_work(&name) {
+    let derived = |name: &String| context.derived.iter().any(|derived| derived.name == *name);
+    let sources = context.derived.iter().flat_map(|derived| derived.how.sources());
+    let named = of_checks.flatten().cloned().chain(of_figures);
+    for name in named.chain(sources.cloned()) {
+        if !observe.contains(&name) && !is_measured_work(&name) && !derived(&name) {
             observe.push(name);
         }
     }
@@ -307,6 +321,10 @@ impl Reader<'_, '_> {
                 let (is, within) = (spec.is.0, spec.within.0);
                 let (of, over) = (spec.of, spec.over);
                 (spec.common, Check::Scaling { of, over, is, within })
+            }
+            ExpectationSpec::Fit(spec) => {
+                let fit = self.fit(&spec);
+                (spec.common, Check::Fit(fit))
             }
             ExpectationSpec::Status(spec) => {
                 let ending = |ending: &EndingSpec| match ending {

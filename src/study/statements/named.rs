@@ -1,6 +1,6 @@
 //! Names in a statement: observables, references, axes and fields.
 
-use kynch_sim::scene::{Observable, ObservableKind};
+use kynch_sim::scene::ObservableKind;
 use serde_json::Value as Schema;
 
 use super::{Reader, distinct};
@@ -13,9 +13,16 @@ use crate::study::spec::statement::NormSpec;
 use crate::study::units::{self, Dimension};
 use crate::study::yaml::Node;
 
-impl Reader<'_, '_> {
+/// A name that a statement may be about.
+struct Offered<'a> {
+    name: &'a str,
+    unit: &'a str,
+    kind: ObservableKind,
+}
+
+impl<'a> Reader<'a, '_> {
     /// Scenes that the statement may be about.
-    pub(super) fn scenes(&self) -> Vec<&str> {
+    pub(super) fn scenes(&self) -> Vec<&'a str> {
         let all = || self.context.works.keys().map(String::as_str).collect::<Vec<_>>();
         let Some(node) = self
             .written
@@ -37,6 +44,29 @@ impl Reader<'_, '_> {
             .collect()
     }
 
+    /// Observables of some scenes, and what the study derives.
+    fn offered(&self, scenes: &[&str]) -> Vec<Offered<'a>> {
+        let observed = scenes
+            .iter()
+            .flat_map(|scene| observables(&self.context.works[*scene]))
+            .map(|observable| Offered {
+                name: observable.name,
+                unit: observable.unit,
+                kind: observable.kind,
+            });
+        let derived = self.context.derived.iter().map(|derived| Offered {
+            name: &derived.name,
+            unit: &derived.unit,
+            kind: ObservableKind::Scalar,
+        });
+        observed.chain(derived).collect()
+    }
+
+    fn offered_anywhere(&self) -> Vec<Offered<'a>> {
+        let scenes: Vec<&str> = self.context.works.keys().map(String::as_str).collect();
+        self.offered(&scenes)
+    }
+
     /// Checks that a selected scene offers an observable of the right kind; gives its unit.
     pub(super) fn observable(
         &mut self,
@@ -51,10 +81,7 @@ impl Reader<'_, '_> {
         if is_measured_work(name) && kinds.contains(&ObservableKind::Scalar) {
             return work_unit(name);
         }
-        let offered: Vec<Observable> = scenes
-            .iter()
-            .flat_map(|scene| observables(&self.context.works[*scene]))
-            .collect();
+        let offered = self.offered(&scenes);
         let right: Vec<&str> = distinct(
             offered
                 .iter()
@@ -110,8 +137,7 @@ impl Reader<'_, '_> {
 
     /// Checks that a reference exists, and is a curve exactly when the observable is one.
     pub(super) fn reference(&mut self, name: &str, of: Option<&String>) {
-        let works = self.context.works.values();
-        let offered: Vec<Observable> = works.flat_map(observables).collect();
+        let offered = self.offered_anywhere();
         let found = || {
             offered
                 .iter()
@@ -149,7 +175,7 @@ impl Reader<'_, '_> {
 
     /// Checks that published data have the dimension of the observable.
     fn same_dimension(&mut self, name: &str, of: Option<&String>) {
-        let offered: Vec<Observable> = self.context.works.values().flat_map(observables).collect();
+        let offered = self.offered_anywhere();
         let found = of.and_then(|of| offered.iter().find(|observable| observable.name == of));
         let data = published().iter().find(|entry| entry.name == name);
         let (Some(found), Some(data)) = (found, data) else {
@@ -163,9 +189,8 @@ impl Reader<'_, '_> {
 
     /// Checks that a norm is asked of a series.
     pub(super) fn norm(&mut self, norm: Option<NormSpec>, of: &str) -> Norm {
-        let offered = self.context.works.values().flat_map(observables);
-        let scalar = |found: &Observable| found.name == of && found.kind == ObservableKind::Scalar;
-        if norm.is_some() && offered.into_iter().any(|found| scalar(&found)) {
+        let scalar = |found: &Offered| found.name == of && found.kind == ObservableKind::Scalar;
+        if norm.is_some() && self.offered_anywhere().iter().any(scalar) {
             let message = format!("`norm` is for a series, `{of}` is a scalar");
             self.fault("norm", message, "leave `norm` out");
         }
