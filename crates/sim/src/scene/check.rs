@@ -41,6 +41,14 @@ impl List {
         });
     }
 
+    /// Takes the faults of a part, with paths of its own.
+    pub(super) fn take(&mut self, part: List, path: impl Fn(String) -> String) {
+        self.0.extend(part.0.into_iter().map(|fault| Fault {
+            path: path(fault.path),
+            ..fault
+        }));
+    }
+
     /// Asks for a finite number above zero; says whether it is.
     pub(super) fn positive(&mut self, path: &str, value: f64) -> bool {
         let holds = value > 0.0 && value.is_finite();

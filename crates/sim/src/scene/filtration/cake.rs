@@ -18,7 +18,7 @@ pub struct Cake {
     pub mass: f64,
     /// Mean height of its surface over the medium [m].
     pub thickness_mean: f64,
-    /// From its lowest to its highest point [-].
+    /// Of its grains from its lowest to its highest point [-].
     pub porosity_whole: f64,
     /// k [m²], infinite where there is none.
     pub permeability: f64,
@@ -28,6 +28,8 @@ pub struct Cake {
     pub in_flight: usize,
     /// Gap between the volume fed and all that is accounted for, over the volume fed [-].
     pub volume_error: f64,
+    /// Gap between its volume and (1 − ε) A L, over its volume [-].
+    pub solids_error: f64,
     /// Volume of grains carried along x per area and time [m/s].
     pub grain_flux: f64,
 }
@@ -86,9 +88,10 @@ impl Cake {
         let spheres = lying().map(|grain| (grains.position(grain), grains.radius(grain)));
         self.thickness_mean = surface.mean_height(spheres, scene.bed.floor_top());
         let [low, high] = measures.ends;
-        let all = (0..grains.moving).map(|grain| (grains.position(grain).z, grains.radius(grain)));
-        let solids = solid_volume_between(all, low, high);
+        let own = lying().map(|grain| (grains.position(grain).z, grains.radius(grain)));
+        let solids = solid_volume_between(own, low, high);
         self.porosity_whole = 1.0 - solids / (scene.area() * (high - low));
+        self.solids_error = (solids / self.volume - 1.0).abs();
         let (permeability, resistance) = match scene.filtrate.permeability {
             CakePermeability::Mean => (measures.permeability, (high - low) / measures.permeability),
             CakePermeability::Layered => {

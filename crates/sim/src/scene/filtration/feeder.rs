@@ -31,6 +31,8 @@ pub struct Feeder {
     /// Ends of the zone that grains are fed into [m].
     zone: [f64; 2],
     flat: bool,
+    /// Lowest height at which a grain has come [m].
+    pub lowest: f64,
     random: Random,
 }
 
@@ -60,6 +62,7 @@ impl Feeder {
             periodic: bed.periodic(),
             zone: [(top - layers * bed.largest_diameter()).max(bed.floor_top()), top],
             flat,
+            lowest: f64::NAN,
             random,
         }
     }
@@ -116,6 +119,7 @@ impl Feeder {
                 break;
             };
             near.push((position, body.radius));
+            self.lowest = self.lowest.min(position.z);
             arriving.push(Grain {
                 body,
                 class,

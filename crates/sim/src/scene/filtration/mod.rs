@@ -1,6 +1,8 @@
 //! A suspension flows through a filter medium; its grains form a cake.
 
 mod cake;
+mod check;
+mod describe;
 mod feeder;
 mod model;
 mod observables;
@@ -15,14 +17,7 @@ pub use model::{
     CakeLength, CakePermeability, Crossflow, Deposited, Feed, Filtrate, Filtration, Held, Resistance,
 };
 
+pub(super) use check::check;
+pub(super) use describe::describe;
 pub(super) use observables::observables;
 pub(super) use run::run;
-
-use super::Description;
-use super::check::List;
-
-pub(super) fn check(_: &Filtration, _: &mut List) {}
-
-pub(super) fn describe(_: &Filtration) -> Description {
-    Description::default()
-}

@@ -11,6 +11,8 @@ use crate::scene::{Dimensions, Floor, Sides};
 const END: f64 = 0.1;
 /// Growth over that share, over the thickness, below which the cake counts as stopped [-].
 const STOPPED: f64 = 0.02;
+/// Share of the flux at the start below which it has begun to fall [-].
+const FALLEN: f64 = 0.98;
 /// Share of the grains fed that must be in flight then [-].
 const IN_FLIGHT: f64 = 0.01;
 
@@ -167,12 +169,25 @@ fn of_grains(watch: &Watch, add: Add) {
     add("passed", "1", row.passed as f64);
     let errors = watch.rows.iter().map(|row| row.cake.volume_error);
     add("volume_error", "1", errors.fold(0.0, f64::max));
+    let errors = watch.rows.iter().map(|row| row.cake.solids_error);
+    add("cake_solids_error", "1", errors.fold(0.0, f64::max));
     add("settled_share", "1", row.measures.settled_share);
+    add("feed_depth", "1", watch.feed_depth());
 }
 
 fn of_growth(watch: &Watch, add: Add) {
-    let begun = watch.rows.iter().find(|row| row.cake.deposited > 0);
-    add("first_deposit_time", "s", begun.map_or(f64::NAN, |row| row.time));
+    add(
+        "first_deposit_time",
+        "s",
+        begun(watch).map_or(f64::NAN, |row| row.time),
+    );
+    let fallen = |row: &&Row| row.flux < FALLEN * watch.operation.flux;
+    let fallen = watch.rows.iter().find(fallen);
+    add(
+        "flux_fall_time",
+        "s",
+        fallen.map_or(watch.scene.bed.duration, |row| row.time),
+    );
     let total = watch.scene.bed.grains() as usize;
     let under_way = |row: &Row| row.cake.in_flight > 0 || row.fed < total;
     let unsettled = watch.rows.iter().rposition(under_way);
@@ -216,7 +231,9 @@ fn series(watch: &Watch) -> Table {
         column("cake_resistance", "1/m", &|row| row.cake.resistance),
         column("specific_resistance", "m/kg", &|row| row.cake.specific_resistance(area)),
         column("filtrate_volume", "m", &|row| row.filtrate),
+        column("volume_since_deposit", "m", &|row| since_deposit(watch, row).1),
         column("time_over_volume", "s/m", &|row| time_over_volume(watch, row)),
+        column("cake_solids_error", "1", &|row| row.cake.solids_error),
         column("deposited", "1", &|row| row.cake.deposited as f64),
         column("deposited_volume", "m³", &|row| row.cake.volume),
         column("deposited_mass", "kg", &|row| row.cake.mass),
@@ -243,13 +260,23 @@ fn series(watch: &Watch) -> Table {
     Table { name: "time_series", columns }
 }
 
-/// t/V [s/m], at the start what it tends to.
-fn time_over_volume(watch: &Watch, row: &Row) -> f64 {
-    if row.filtrate > 0.0 {
-        row.time / row.filtrate
-    } else {
-        1.0 / watch.operation.flux
+/// Time [s] and filtrate per area [m] since the cake began; no numbers before.
+fn since_deposit(watch: &Watch, row: &Row) -> (f64, f64) {
+    match begun(watch) {
+        Some(first) if row.time >= first.time => (row.time - first.time, row.filtrate - first.filtrate),
+        _ => (f64::NAN, f64::NAN),
     }
+}
+
+/// t/V [s/m] since the cake began.
+fn time_over_volume(watch: &Watch, row: &Row) -> f64 {
+    let (time, volume) = since_deposit(watch, row);
+    time / volume
+}
+
+/// The first row with a cake.
+fn begun<'a>(watch: &'a Watch) -> Option<&'a Row> {
+    watch.rows.iter().find(|row| row.cake.deposited > 0)
 }
 
 fn porosity_profile(watch: &Watch) -> Table {

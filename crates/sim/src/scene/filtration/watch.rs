@@ -211,6 +211,11 @@ impl<'a> Watch<'a> {
         settled
     }
 
+    /// Depth under the top of the cell at which the lowest grain was fed, in largest diameters [-].
+    pub fn feed_depth(&self) -> f64 {
+        (self.scene.top() - self.feeder.lowest) / self.scene.bed.largest_diameter()
+    }
+
     /// Whether all grains have come and none is under way.
     pub fn all_settled(&self) -> bool {
         let under_way = |row: &Row| row.cake.in_flight + self.feeder.total() - row.fed;
