@@ -1,3 +1,5 @@
+mod derived;
+mod fitted;
 mod limits;
 mod published;
 

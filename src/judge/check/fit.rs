@@ -11,12 +11,7 @@ use crate::reference::{self, Facts};
 use crate::study::model::{Band, FitTarget, LawFit, Parameter};
 
 /// References for the exponent, shown beside the fitted one.
-pub const CORRELATIONS: [&str; 4] = [
-    "wallis_exponent",
-    "garside_al_dibouni_exponent",
-    "rowe_exponent",
-    "khan_richardson_exponent",
-];
+pub const CORRELATIONS: [&str; 4] = ["wallis", "garside_al_dibouni", "rowe", "khan_richardson"];
 
 /// Means over seeds along the axis, with the reference at each.
 struct Points {
@@ -243,12 +238,14 @@ fn correlations(chain: &Chain, label: &str, computed: f64) -> Vec<PointVerdict> 
         scalars: &scalars,
     };
     let found = CORRELATIONS.iter().filter_map(|name| {
-        let expected = reference::scalar(name, &facts).ok()?.values[0];
+        let correlation = reference::scalar(name, &facts).ok()?;
+        let expected = correlation.values[0];
+        let author = correlation.source.split(", ").next().unwrap_or(name);
         Some(PointVerdict {
             expected: Some(expected),
             computed: Some(computed),
             error: Some((computed / expected - 1.0).abs()),
-            ..row(chain, format!("{label}: {name}"))
+            ..row(chain, format!("{label}: {author}"))
         })
     });
     found.collect()

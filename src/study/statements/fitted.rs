@@ -32,10 +32,9 @@ impl Reader<'_, '_> {
     }
 
     pub(super) fn richardson_zaki(&mut self, spec: &RichardsonZakiSpec) -> (FittedLaw, Option<Dimension>) {
-        let place = "richardson_zaki";
-        let unit = self.observable(place, &spec.of, &[Scalar]);
-        self.numeric_axis(place, &spec.over);
-        self.porosities(place, &spec.over);
+        let unit = self.observable("richardson_zaki.of", &spec.of, &[Scalar]);
+        self.numeric_axis("richardson_zaki.over", &spec.over);
+        self.porosities("richardson_zaki.over", &spec.over);
         let law = FittedLaw {
             of: spec.of.clone(),
             over: spec.over.clone(),

@@ -250,7 +250,11 @@ struct Named {
 
 impl Reader<'_, '_> {
     fn fault(&mut self, name: &str, message: impl AsRef<str>, help: impl AsRef<str>) {
-        let node = self.written.fields.get(name);
+        // `a.b`: the field b of the field a.
+        let node = name
+            .split('.')
+            .try_fold(self.written.fields, |node, field| node.get(field));
+        let node = node.or_else(|| self.written.fields.get(name.split('.').next()?));
         let span = node.map_or(self.written.kind.span.clone(), |node| node.span.clone());
         self.problems
             .add(&span, &format!("{}.{name}", self.written.path), message, help);
