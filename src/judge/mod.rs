@@ -1,7 +1,7 @@
 //! From runs and references to verdicts.
 
 pub mod bracket;
-mod check;
+pub mod check;
 pub mod convergence;
 pub mod derive;
 pub mod exit;

@@ -81,6 +81,22 @@ impl Scale {
         }
     }
 
+    /// Covers positive values that span less than a decade, with a small margin and ticks at round numbers.
+    pub fn logarithmic_tight(values: impl IntoIterator<Item = f64>) -> Scale {
+        let (low, high) = range(values.into_iter().filter(|value| *value > 0.0)).unwrap_or((1.0, 10.0));
+        let margin = (high / low).powf(0.05).max(1.005);
+        let (low, high) = (low / margin, high * margin);
+        Scale {
+            logarithmic: true,
+            low,
+            high,
+            ticks: match high / low < 5.0 {
+                true => linear_ticks(low, high, TICKS),
+                false => logarithmic_ticks(low, high),
+            },
+        }
+    }
+
     /// Ticks at the values themselves, where they are few: a sweep's own resolutions.
     pub fn with_ticks_at(mut self, values: &[f64]) -> Scale {
         let mut values = values.to_vec();

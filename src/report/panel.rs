@@ -29,6 +29,11 @@ pub struct Panel {
 impl Panel {
     /// Draws grid, axes, ticks and titles.
     pub fn new(x: Axis, y: Axis) -> Panel {
+        Panel::beside(x, y, theme::RIGHT_MARGIN)
+    }
+
+    /// The same with more room to the right of the axes.
+    pub fn beside(x: Axis, y: Axis, room: i32) -> Panel {
         let widest = y.scale.ticks().iter().filter_map(|tick| tick.label.as_deref());
         let widest = widest
             .map(|label| theme::text_width(label, theme::SMALL_TEXT))
@@ -40,7 +45,7 @@ impl Panel {
         let plot = Area {
             left,
             top,
-            right: theme::WIDTH - theme::RIGHT_MARGIN,
+            right: theme::WIDTH - room,
             bottom: top + theme::PLOT_HEIGHT.max(title),
         };
         let mut panel = Panel {

@@ -533,6 +533,28 @@ pub enum FigureKind {
         across: String,
         group: Option<String>,
     },
+    /// A profile table over time and height as a picture, curves on top.
+    Map {
+        of: String,
+        curves: Vec<String>,
+        against: Vec<String>,
+    },
+    /// A settling velocity over the porosity with its fitted law, correlations beside.
+    RichardsonZaki {
+        law: FittedLaw,
+        against: Option<String>,
+        group: Option<String>,
+    },
+    /// Flux of solids over their fraction, with the chords of shocks.
+    Flux {
+        of: String,
+        over: String,
+        /// Reference for the settling velocity at any porosity.
+        against: String,
+        /// Scalar that holds the fraction of the deposit.
+        deposit: Option<String>,
+        group: Option<String>,
+    },
     /// Pictures of the grains of one point at the kept times nearest to these [s].
     Snapshots { times: Vec<f64> },
 }

@@ -8,10 +8,11 @@ use crate::judge::point_error::{mean_scalar, same_dimension};
 use crate::judge::select::Chain;
 use crate::judge::words::{self, percent, significant};
 use crate::reference::{self, Facts};
+use crate::store::model::Run;
 use crate::study::model::{Band, FitTarget, LawFit, Parameter};
 
 /// References for the exponent, shown beside the fitted one.
-pub const CORRELATIONS: [&str; 4] = ["wallis", "garside_al_dibouni", "rowe", "khan_richardson"];
+const CORRELATIONS: [&str; 4] = ["wallis", "garside_al_dibouni", "rowe", "khan_richardson"];
 
 /// Means over seeds along the axis, with the reference at each.
 struct Points {
@@ -231,7 +232,18 @@ fn summary(judged: &Judged, points: &Points) -> String {
 
 /// The exponents of the correlations for the grain and fluid of a chain, where they hold; they decide nothing.
 fn correlations(chain: &Chain, label: &str, computed: f64) -> Vec<PointVerdict> {
-    let run = chain.steps[0].1.first();
+    let found = correlations_of(chain.steps[0].1.first()).into_iter();
+    let rows = found.map(|(author, expected)| PointVerdict {
+        expected: Some(expected),
+        computed: Some(computed),
+        error: Some((computed / expected - 1.0).abs()),
+        ..row(chain, format!("{label}: {author}"))
+    });
+    rows.collect()
+}
+
+/// Author and exponent of the correlations that hold for the grain and fluid of a run.
+pub fn correlations_of(run: &Run) -> Vec<(String, f64)> {
     let scalars = |name: &str| run.scalar(name).map(|scalar| scalar.value);
     let facts = Facts {
         settings: &run.settings,
@@ -239,14 +251,8 @@ fn correlations(chain: &Chain, label: &str, computed: f64) -> Vec<PointVerdict> 
     };
     let found = CORRELATIONS.iter().filter_map(|name| {
         let correlation = reference::scalar(name, &facts).ok()?;
-        let expected = correlation.values[0];
         let author = correlation.source.split(", ").next().unwrap_or(name);
-        Some(PointVerdict {
-            expected: Some(expected),
-            computed: Some(computed),
-            error: Some((computed / expected - 1.0).abs()),
-            ..row(chain, format!("{label}: {author}"))
-        })
+        Some((author.to_string(), correlation.values[0]))
     });
     found.collect()
 }

@@ -1,12 +1,16 @@
 //! One file per figure kind: from runs to a drawing, a table and notes for the caption.
 
 pub mod error_against_resolution;
+pub mod flux;
 pub mod limit;
 mod lines;
+pub mod map;
 pub mod profile;
 mod replicates;
 pub mod response;
+pub mod richardson_zaki;
 pub mod run_time_against_error;
+mod settling;
 mod slope;
 pub mod snapshots;
 pub mod time_series;
@@ -213,6 +217,25 @@ impl Material<'_> {
                 group,
                 against,
             } => response::draw(self, &response::Question { of, over, against }, group.as_deref()),
+            FigureKind::Map { of, curves, against } => map::draw(self, of, curves, against),
+            FigureKind::RichardsonZaki { law, against, group } => {
+                richardson_zaki::draw(self, law, against.as_deref(), group.as_deref())
+            }
+            FigureKind::Flux {
+                of,
+                over,
+                against,
+                deposit,
+                group,
+            } => {
+                let question = flux::Question {
+                    of,
+                    over,
+                    against,
+                    deposit: deposit.as_deref(),
+                };
+                flux::draw(self, &question, group.as_deref())
+            }
             FigureKind::Snapshots { times } => snapshots::draw(self, times),
         }
     }

@@ -63,7 +63,7 @@ pub fn draw(material: &Material, times: &[f64]) -> Result<Plate, ReportError> {
 }
 
 /// The run with the lowest seed of the one point there is.
-fn one_run<'a>(material: &Material<'a>) -> Result<&'a Run, ReportError> {
+pub(super) fn one_run<'a>(material: &Material<'a>) -> Result<&'a Run, ReportError> {
     let mut runs = material.runs.clone();
     runs.sort_by_key(|run| run.seed);
     let first = *runs.first().ok_or_else(|| ReportError("no run".to_owned()))?;

@@ -256,6 +256,12 @@ pub enum FigureSpec {
     Response(ResponseSpec),
     /// The place on an axis at which a scalar leaves a band, over another axis, reference beside.
     Limit(LimitFigureSpec),
+    /// A profile over time and height as a picture, curves on top.
+    Map(MapSpec),
+    /// A settling velocity over the porosity with its fitted law, correlations beside.
+    RichardsonZaki(RichardsonZakiFigureSpec),
+    /// Flux of solids over their fraction after Kynch, with the chords of shocks.
+    Flux(FluxSpec),
     /// Pictures of the grains of one point, coloured by speed.
     Snapshots(SnapshotsSpec),
 }
@@ -372,6 +378,47 @@ pub struct DataSpec {
     pub rows: BTreeMap<String, Scalar>,
     /// Its name in the legend.
     pub label: Option<String>,
+}
+
+/// One point's picture.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct MapSpec {
+    /// Profile table of time, height and what is shown.
+    pub of: String,
+    /// Series of heights to draw on top.
+    pub curves: Option<OneOrMore<String>>,
+    /// References to draw on top.
+    pub against: Option<OneOrMore<String>>,
+    #[serde(flatten)]
+    pub caption: Caption,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct RichardsonZakiFigureSpec {
+    /// The settling velocity.
+    pub of: String,
+    /// Axis of the porosity.
+    pub over: String,
+    /// In what the deviations are squared: `logarithmic` for relative ones, if left out.
+    pub scale: Option<ScaleSpec>,
+    /// Name of a reference to draw beside.
+    pub against: Option<String>,
+    #[serde(flatten)]
+    pub caption: Caption,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct FluxSpec {
+    /// The settling velocity.
+    pub of: String,
+    /// Axis of the porosity.
+    pub over: String,
+    /// Name of the reference for the settling velocity, drawn at every porosity.
+    pub against: String,
+    /// Scalar that holds the solids fraction of the deposit; no chords without it.
+    pub deposit: Option<String>,
+    #[serde(flatten)]
+    pub caption: Caption,
 }
 
 #[derive(Clone, Debug, Deserialize, JsonSchema)]

@@ -1,12 +1,13 @@
 //! A law that is fitted over an axis.
 
-use kynch_sim::scene::ObservableKind::Scalar;
+use kynch_sim::scene::ObservableKind::{Profile, Scalar, Series};
 
 use super::Reader;
-use crate::study::model::{AxisValue, Band, FitTarget, FittedLaw, LawFit, Parameter};
+use crate::study::model::{AxisValue, Band, FigureKind, FitTarget, FittedLaw, LawFit, Parameter};
 use crate::study::spec::quantity::AnyQuantity;
 use crate::study::spec::statement::{
-    Common, FitSpec, ParameterSpec, RichardsonZakiSpec, ScaleSpec, ValueSpec,
+    Caption, Common, FitSpec, FluxSpec, MapSpec, ParameterSpec, RichardsonZakiFigureSpec, RichardsonZakiSpec,
+    ScaleSpec, ValueSpec,
 };
 use crate::study::units::Dimension;
 
@@ -34,17 +35,76 @@ impl Reader<'_, '_> {
     pub(super) fn richardson_zaki(&mut self, spec: &RichardsonZakiSpec) -> (FittedLaw, Option<Dimension>) {
         let unit = self.observable("richardson_zaki.of", &spec.of, &[Scalar]);
         self.numeric_axis("richardson_zaki.over", &spec.over);
-        self.porosities("richardson_zaki.over", &spec.over);
-        let law = FittedLaw {
-            of: spec.of.clone(),
-            over: spec.over.clone(),
-            linear: spec.scale == Some(ScaleSpec::Linear),
+        self.porosities("richardson_zaki.over", &spec.over, LEAST_POINTS);
+        (law(spec), unit)
+    }
+
+    /// A settling velocity with its fitted law.
+    pub(super) fn settling(&mut self, spec: RichardsonZakiFigureSpec) -> (Caption, FigureKind) {
+        self.observable("of", &spec.of, &[Scalar]);
+        self.numeric_axis("over", &spec.over);
+        self.porosities("over", &spec.over, LEAST_POINTS);
+        if let Some(against) = &spec.against {
+            self.reference(against, Some(&spec.of));
+        }
+        let law = law(&RichardsonZakiSpec {
+            of: spec.of,
+            over: spec.over,
+            scale: spec.scale,
+        });
+        let kind = FigureKind::RichardsonZaki {
+            law,
+            against: spec.against,
+            group: spec.caption.group.clone(),
         };
-        (law, unit)
+        (spec.caption, kind)
+    }
+
+    /// A flux curve with its chords.
+    pub(super) fn flux(&mut self, spec: FluxSpec) -> (Caption, FigureKind) {
+        self.observable("of", &spec.of, &[Scalar]);
+        self.numeric_axis("over", &spec.over);
+        self.porosities("over", &spec.over, 1);
+        self.reference(&spec.against, Some(&spec.of));
+        if let Some(deposit) = &spec.deposit {
+            self.observable("deposit", deposit, &[Scalar]);
+        }
+        let kind = FigureKind::Flux {
+            of: spec.of,
+            over: spec.over,
+            against: spec.against,
+            deposit: spec.deposit,
+            group: spec.caption.group.clone(),
+        };
+        (spec.caption, kind)
+    }
+
+    /// A picture of a profile with curves on top.
+    pub(super) fn map(&mut self, spec: MapSpec) -> (Caption, FigureKind) {
+        self.observable("of", &spec.of, &[Profile]);
+        self.one_point();
+        let curves = spec.curves.map(|curves| curves.0).unwrap_or_default();
+        for curve in &curves {
+            self.observable("curves", curve, &[Series]);
+        }
+        let against = spec.against.map(|against| against.0).unwrap_or_default();
+        for name in &against {
+            self.reference(name, curves.first());
+        }
+        if spec.caption.group.is_some() {
+            let message = "`group` does not go with a picture of one point";
+            self.fault("group", message, "leave it out");
+        }
+        let kind = FigureKind::Map {
+            of: spec.of,
+            curves,
+            against,
+        };
+        (spec.caption, kind)
     }
 
     /// Checks that the values of an axis are porosities, and enough of them.
-    fn porosities(&mut self, place: &str, over: &str) {
+    fn porosities(&mut self, place: &str, over: &str, least: usize) {
         let Some(axis) = self.context.axes.iter().find(|axis| axis.axis.name == over) else {
             return;
         };
@@ -56,7 +116,7 @@ impl Reader<'_, '_> {
         if let Some(number) = numbers.iter().find(|number| !(**number > 0.0 && **number <= 1.0)) {
             let message = format!("the axis `{over}` has the value {number}, which is no porosity");
             self.fault(place, message, "let `over` name the axis of the porosity");
-        } else if (2..LEAST_POINTS).contains(&numbers.len()) {
+        } else if (2..least).contains(&numbers.len()) {
             let message = format!(
                 "the axis `{over}` has {} values, a fit needs three",
                 numbers.len()
@@ -122,5 +182,13 @@ impl Reader<'_, '_> {
             common: Common::default(),
         };
         self.band(&bounds, unit)
+    }
+}
+
+fn law(spec: &RichardsonZakiSpec) -> FittedLaw {
+    FittedLaw {
+        of: spec.of.clone(),
+        over: spec.over.clone(),
+        linear: spec.scale == Some(ScaleSpec::Linear),
     }
 }

@@ -212,6 +212,9 @@ pub fn observe(
         | FigureKind::Response { of, .. }
         | FigureKind::Profile { of, .. } => vec![of.clone()],
         FigureKind::Limit { limit, .. } => vec![limit.of.clone()],
+        FigureKind::Map { of, curves, .. } => std::iter::once(of).chain(curves).cloned().collect(),
+        FigureKind::RichardsonZaki { law, .. } => vec![law.of.clone()],
+        FigureKind::Flux { of, deposit, .. } => std::iter::once(of).chain(deposit).cloned().collect(),
         FigureKind::Snapshots { .. } => vec![SNAPSHOTS.to_owned()],
     });
     let derived = |name: &String| context.derived.iter().any(|derived| derived.name == *name);
@@ -443,6 +446,9 @@ impl Reader<'_, '_> {
                 self.numeric_axis("across", &across);
                 (spec.caption, FigureKind::Limit { limit, across, group })
             }
+            FigureSpec::Map(spec) => return self.map(spec),
+            FigureSpec::RichardsonZaki(spec) => self.settling(spec),
+            FigureSpec::Flux(spec) => self.flux(spec),
             FigureSpec::Snapshots(spec) => {
                 self.observable("snapshots", SNAPSHOTS, &[Profile]);
                 self.one_point();
