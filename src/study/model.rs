@@ -500,6 +500,8 @@ pub enum FigureKind {
     /// Series over time, one line per run, with the reference where one is named.
     TimeSeries {
         of: Vec<String>,
+        /// The series in the place of time.
+        over: Option<String>,
         against: Option<String>,
         group: Option<String>,
     },

@@ -121,13 +121,8 @@ pub fn refusals(spec: &SceneSpec, work: &Work) -> Vec<Fault> {
     if !contradictions.is_empty() {
         return contradictions;
     }
-    let placed = |mut fault: Fault| {
-        if let SceneSpec::Filtration(spec) = spec {
-            fault.path = filtration::path(spec, &fault.path);
-        }
-        sedimentation::placed(bed, fault)
-    };
-    faults(work).into_iter().map(placed).collect()
+    let found = faults(work).into_iter();
+    found.map(|fault| sedimentation::placed(bed, fault)).collect()
 }
 
 fn rehearsed(spec: &RehearsalSpec) -> Rehearsal {
