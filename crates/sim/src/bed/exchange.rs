@@ -79,8 +79,12 @@ impl Bed {
         if let Some(sleep) = &mut self.sleep {
             sleep.rename(&renamed, &self.grains, sleepers);
         }
-        self.forces.clear();
-        self.forces.resize(self.grains.motion.len(), Record::default());
+        let mut forces = vec![Record::default(); self.grains.motion.len()];
+        for (place, force) in self.forces[..before.len()].iter().enumerate() {
+            if let Some(kept) = forces.get_mut(name(place as u32) as usize) {
+                *kept = *force;
+            }
+        }
         self.smallest = smallest_diameter(&self.grains);
         let fastest = arriving.iter().map(|grain| grain.velocity.norm());
         let fastest = (0..self.grains.moving)
@@ -91,7 +95,16 @@ impl Bed {
         if let Some(porosity) = &mut self.porosity {
             porosity.refresh(&mut self.grains, &self.surroundings);
         }
-        self.sum_forces(0.0);
+        // Until the next step who comes touches nobody; who leaves may have touched many.
+        self.forces.clear();
+        if leaving.is_empty() {
+            let numbers = self.grains.number.iter();
+            self.forces.extend(numbers.map(|number| forces[*number as usize]));
+            self.forces.resize(self.grains.motion.len(), Record::default());
+        } else {
+            self.forces.resize(self.grains.motion.len(), Record::default());
+            self.sum_forces(0.0);
+        }
     }
 
     /// Draws a volume flux q [m/s] through the floor from now on.

@@ -1,7 +1,7 @@
 //! The fluid as grains see it: porosity of their slices, and the flow back through them.
 
 use crate::contact::Body;
-use crate::coupling::Slices;
+use crate::coupling::slices::{Measure, Slices};
 use crate::drag;
 use crate::math::Vec3;
 
@@ -33,10 +33,10 @@ pub struct Porosity {
 }
 
 impl Porosity {
-    /// By slices of a height [m].
-    pub fn new(slices: Slices, height: f64, closed: bool, mixed: bool, relaxation: f64) -> Self {
+    /// Slices of a height [m] over a cross-section [m²] (a width [m], by areas), from zero up.
+    pub fn new(height: f64, area: f64, measure: Measure, closed: bool, mixed: bool, relaxation: f64) -> Self {
         Porosity {
-            slices,
+            slices: Slices::new(0.0, height, area, measure),
             height,
             closed,
             mixed,
@@ -47,6 +47,12 @@ impl Porosity {
             sums: Vec::new(),
             refreshes: 0,
         }
+    }
+
+    /// The same from a height [m] up.
+    pub fn from_height(mut self, bottom: f64) -> Self {
+        self.slices.begin(bottom);
+        self
     }
 
     /// Draws a volume flux q [m/s] through the floor from now on: in a closed vessel that of fluid and

@@ -1,5 +1,6 @@
 //! The sweep over eight pairs against one pair after the other, and contacts at rest.
 
+mod exchange;
 mod oracle;
 mod registers;
 mod rest;

@@ -39,6 +39,18 @@ impl Bed {
         way
     }
 
+    /// The same position within the sides of the periodic directions [m].
+    pub fn inside(&self, mut position: Vec3) -> Vec3 {
+        for (axis, &side) in self.interaction.period.iter().enumerate() {
+            if side > 0.0 {
+                let within = position[axis].rem_euclid(side);
+                // Rounding may give the full side.
+                position[axis] = if within < side { within } else { 0.0 };
+            }
+        }
+        position
+    }
+
     /// What the forces between grains sum up to, over the sum of their sizes [-]: zero but for rounding.
     pub fn momentum_error(&self) -> f64 {
         let mut forces = vec![crate::neighbours::Record::default(); self.forces.len()];

@@ -67,6 +67,11 @@ impl Slices {
         }
     }
 
+    /// Slices begin at this height [m] from the next call of [`place`](Self::place) on.
+    pub fn begin(&mut self, bottom: f64) {
+        self.bottom = bottom;
+    }
+
     /// Takes grains with their heights [m] and radii [m]; slices reach over the highest of them.
     ///
     /// Everything else refers to the grains in this order.

@@ -21,6 +21,8 @@ pub const SPACE: Surroundings = Surroundings {
     viscosity: 0.0,
     drag: None,
     lift: false,
+    stream: None,
+    shear_lift: false,
 };
 
 /// E* of soft glass [Pa].

@@ -2,6 +2,7 @@
 
 use super::oracle::{Oracle, summed};
 use super::*;
+use crate::bed::Stream;
 use crate::bed::contacts::PairSweep;
 use crate::bed::motion::{KickAndDrift, Stride};
 use crate::bed::walls::WallSweep;
@@ -12,16 +13,20 @@ use crate::neighbours::{Avx2, Avx512};
 use crate::neighbours::{Plain, Record, Wide, WideWork};
 
 /// Forces of pairs and walls and one kick with drag, three times over.
-fn bits<W: Wide>(interaction: Interaction, walls: &[Wall], drag: AnyDrag) -> Vec<u64> {
+fn bits<W: Wide>(interaction: Interaction, walls: &[Wall], drag: AnyDrag, flows: bool) -> Vec<u64> {
     let mut bed = bed(cloud(61, 5), walls, interaction);
     let surroundings = Surroundings {
         gravity: 9.81,
         fluid_density: 1000.0,
         viscosity: 1e-3,
         drag: Some(drag),
-        lift: false,
-        stream: None,
-        shear_lift: false,
+        lift: flows,
+        stream: flows.then_some(Stream {
+            mean: 0.1,
+            bottom: 0.0,
+            height: 0.8 * SIDE,
+        }),
+        shear_lift: flows,
     };
     for spin in &mut bed.grains.spin {
         (spin.0[4], spin.0[5], spin.0[6]) = (0.7, 1e-3, 1e-9);
@@ -85,14 +90,21 @@ fn all_registers_give_the_same_bits_under_every_law() {
             attraction: (case % 2 == 0).then(attraction),
             ..interaction(laws)
         };
-        let plain = bits::<Plain>(interaction, &walls(), drag);
+        let flows = case % 5 < 2;
+        let plain = bits::<Plain>(interaction, &walls(), drag, flows);
         #[cfg(target_arch = "x86_64")]
         {
             if is_x86_feature_detected!("avx2") {
-                assert!(bits::<Avx2>(interaction, &walls(), drag) == plain, "{laws:?}");
+                assert!(
+                    bits::<Avx2>(interaction, &walls(), drag, flows) == plain,
+                    "{laws:?}"
+                );
             }
             if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
-                assert!(bits::<Avx512>(interaction, &walls(), drag) == plain, "{laws:?}");
+                assert!(
+                    bits::<Avx512>(interaction, &walls(), drag, flows) == plain,
+                    "{laws:?}"
+                );
             }
         }
         assert!(plain.iter().all(|bits| f64::from_bits(*bits).is_finite()));

@@ -21,3 +21,6 @@ pub(super) use check::check;
 pub(super) use describe::describe;
 pub(super) use observables::observables;
 pub(super) use run::run;
+
+#[cfg(test)]
+mod tests;

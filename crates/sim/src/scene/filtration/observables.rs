@@ -66,6 +66,7 @@ const ALWAYS: &[Row] = &[
     ("feed_depth", "1", Scalar, "depth under the top of the cell at which the lowest grain was fed, by its centre in largest diameters"),
     ("settled_share", "1", Scalar, "share of the grains fed that lie in the cake"),
     ("first_deposit_time", "s", Scalar, "time at which the cake begins"),
+    ("deposit_onset", "s", Scalar, "time at which the straight line through the deposited volume, from 20 to 80 % of that at the end, begins"),
     ("flux_fall_time", "s", Scalar, "time at which the flux falls below 98 % of that at the start; the duration where it never does"),
     ("settling_time", "s", Scalar, "time from which on all grains fed lie in the cake or have passed"),
     ("plateau_time", "s", Scalar, "time from which on the thickness stays within 2 % of its mean over the last tenth of the run"),

@@ -11,6 +11,8 @@ use crate::scene::{Dimensions, Floor, Sides};
 const END: f64 = 0.1;
 /// Growth over that share, over the thickness, below which the cake counts as stopped [-].
 const STOPPED: f64 = 0.02;
+/// Between these shares of the deposit at the end it grows evenly [-].
+const GROWING: [f64; 2] = [0.2, 0.8];
 /// Share of the flux at the start below which it has begun to fall [-].
 const FALLEN: f64 = 0.98;
 /// Share of the grains fed that must be in flight then [-].
@@ -181,6 +183,7 @@ fn of_growth(watch: &Watch, add: Add) {
         "s",
         begun(watch).map_or(f64::NAN, |row| row.time),
     );
+    add("deposit_onset", "s", deposit_onset(watch));
     let fallen = |row: &&Row| row.flux < FALLEN * watch.operation.flux;
     let fallen = watch.rows.iter().find(fallen);
     add(
@@ -272,6 +275,32 @@ fn since_deposit(watch: &Watch, row: &Row) -> (f64, f64) {
 fn time_over_volume(watch: &Watch, row: &Row) -> f64 {
     let (time, volume) = since_deposit(watch, row);
     time / volume
+}
+
+/// Time [s] at which the straight line of least squares through the deposited volume, from 20 to 80 % of
+/// that at the end, begins; no number for fewer than three rows. The first grain comes before the others:
+/// they are fed into a zone of some height.
+fn deposit_onset(watch: &Watch) -> f64 {
+    let [from, to] = GROWING.map(|share| share * last(watch).cake.volume);
+    let growing = |row: &&Row| row.cake.volume > from && row.cake.volume < to;
+    let points: Vec<(f64, f64)> = watch
+        .rows
+        .iter()
+        .filter(growing)
+        .map(|row| (row.time, row.cake.volume))
+        .collect();
+    if points.len() < 3 {
+        return f64::NAN;
+    }
+    let count = points.len() as f64;
+    let time = points.iter().map(|point| point.0).sum::<f64>() / count;
+    let volume = points.iter().map(|point| point.1).sum::<f64>() / count;
+    let spread: f64 = points.iter().map(|point| (point.0 - time).powi(2)).sum();
+    let common: f64 = points
+        .iter()
+        .map(|point| (point.0 - time) * (point.1 - volume))
+        .sum();
+    time - volume * spread / common
 }
 
 /// The first row with a cake.

@@ -58,7 +58,7 @@ pub fn start(scene: &Filtration, operation: &Operation) -> Result<Bed, Fault> {
     surroundings.shear_lift = scene.crossflow.is_some_and(|flow| flow.shear_lift);
     // Slices reach down to where grains leave, with a plane at z = 0.
     let below = (-bed.floor_bottom() / bed.largest_diameter()).ceil();
-    let mut porosity = slices(bed, -below * bed.largest_diameter());
+    let mut porosity = slices(bed).from_height(-below * bed.largest_diameter());
     porosity.draw(operation.flux);
     let mut walls = walls(bed);
     if scene.crossflow.is_some() {

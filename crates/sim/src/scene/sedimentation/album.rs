@@ -78,7 +78,7 @@ fn rows(bed: &Bed, contacts: &[u16], name: impl Fn(u32) -> u32) -> Vec<[f64; FIE
     let grains = &bed.grains;
     let row = |place: u32| {
         let grain = place as usize;
-        let (x, v) = (grains.position(grain), grains.velocity(grain));
+        let (x, v) = (bed.inside(grains.position(grain)), grains.velocity(grain));
         let class = match grains.class[grain] {
             u16::MAX => -1.0,
             class => f64::from(class),

@@ -13,7 +13,7 @@ use crate::arrangement::{self, Fault, Region};
 use crate::bed::{self, Attraction, Bed, Grain, Grains, Interaction, Listing, Porosity, Surroundings};
 use crate::cohesion::VanDerWaals;
 use crate::contact::{Body, ContactLaws, Couple};
-use crate::coupling::slices::{Measure, Slices};
+use crate::coupling::slices::Measure;
 use crate::drag::{AnyDrag, AnyVoidage, SphereDrag};
 use crate::math::{Random, Vec3};
 use crate::neighbours::Search;
@@ -190,7 +190,7 @@ fn drag(scene: &Sedimentation) -> Option<AnyDrag> {
 fn porosity(scene: &Sedimentation) -> Option<Porosity> {
     let closed = matches!(scene.fluid, StillFluid::Column(_));
     let seen = scene.voidage != Voidage::None && scene.drag != GrainDrag::None;
-    (closed || mixed(scene) || seen).then(|| slices(scene, 0.0))
+    (closed || mixed(scene) || seen).then(|| slices(scene))
 }
 
 /// Whether grains of several densities share the drag on the mixture.
@@ -200,8 +200,8 @@ fn mixed(scene: &Sedimentation) -> bool {
     differ && scene.drag != GrainDrag::None
 }
 
-/// Slices from a height [m] up.
-pub fn slices(scene: &Sedimentation, bottom: f64) -> Porosity {
+/// Slices one largest diameter high.
+pub fn slices(scene: &Sedimentation) -> Porosity {
     let viscosity = scene.fluid.medium().viscosity;
     let relaxation = scene
         .extremes()
@@ -213,12 +213,11 @@ pub fn slices(scene: &Sedimentation, bottom: f64) -> Porosity {
         SlicePorosity::Centre => (Measure::Centre, scene.container.width * scene.depth()),
         SlicePorosity::Areas => (Measure::Areas, scene.container.width),
     };
-    let height = scene.largest_diameter();
-    let closed = matches!(scene.fluid, StillFluid::Column(_));
     Porosity::new(
-        Slices::new(bottom, height, area, measure),
-        height,
-        closed,
+        scene.largest_diameter(),
+        area,
+        measure,
+        matches!(scene.fluid, StillFluid::Column(_)),
         mixed(scene),
         relaxation,
     )

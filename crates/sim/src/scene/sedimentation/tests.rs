@@ -239,7 +239,7 @@ fn everything_wrong_is_reported_at_once() {
     scene.container.floor = Floor::Grains(FloorGrains {
         diameter: 300e-6,
         gap: 0.0,
-        layers: 1,
+        layers: 0,
     });
     scene.porosity = SlicePorosity::Areas;
     scene.central_slice = 0.0;
@@ -252,7 +252,7 @@ fn everything_wrong_is_reported_at_once() {
     found.sort();
     let expected = [
         "central_slice",
-        "container.floor",
+        "container.floor.grains.layers",
         "detection.list.skin",
         "grains.density",
         "gravity",

@@ -18,6 +18,8 @@ fn water(viscosity: f64, sphere: SphereDrag, voidage: AnyVoidage) -> Surrounding
         viscosity,
         drag: Some(AnyDrag { sphere, voidage }),
         lift: false,
+        stream: None,
+        shear_lift: false,
     }
 }
 
@@ -211,6 +213,8 @@ fn a_spinning_grain_drifts_across_its_fall_as_rubinow_and_keller_say() {
     let mut setup = Setup::new(grains, smooth(normals()[0]), 1e-5);
     setup.surroundings = Surroundings {
         lift: true,
+        stream: None,
+        shear_lift: false,
         ..water(viscosity, SphereDrag::Stokes, AnyVoidage::None)
     };
     let mut bed = setup.bed();
