@@ -2,9 +2,10 @@
 
 use super::fit::segmented::{self, Segmented, meeting};
 use super::fit::{Estimate, FitError};
+use super::interpolation;
 use super::point_error::series;
 use crate::store::model::{Derived, Run, Scalar, Status};
-use crate::study::model::{self, Coordinate, Derivation, Segment, Study};
+use crate::study::model::{self, Coordinate, Derivation, Reduction, Segment, Study};
 
 /// Gives every completed run what the study derives; where that fails, the reason why.
 pub fn derive(study: &Study, runs: &mut [Run]) {
@@ -34,40 +35,114 @@ fn derived(run: &Run, what: &model::Derived) -> Derived {
 
 fn estimate(run: &Run, how: &Derivation) -> Result<Estimate, FitError> {
     match how {
-        Derivation::Slope { of, line, falling } => {
-            let slope = fitted(run, of, line)?.slopes[line.which - 1];
+        Derivation::Slope {
+            of,
+            over,
+            line,
+            falling,
+        } => {
+            let slope = fitted(run, of, over.as_deref(), line)?.slopes[line.which - 1];
             let sign = if *falling { -1.0 } else { 1.0 };
             Ok(Estimate {
                 value: sign * slope.value,
                 ..slope
             })
         }
-        Derivation::Breakpoint { of, line } => Ok(fitted(run, of, line)?.joints[line.which - 1]),
+        Derivation::Intercept { of, over, line } => {
+            Ok(fitted(run, of, over.as_deref(), line)?.straight(0).at(0.0))
+        }
+        Derivation::Breakpoint { of, line } => Ok(fitted(run, of, None, line)?.joints[line.which - 1]),
         Derivation::Crossing { of, line, take } => {
-            let straight = |of: &String| Ok(fitted(run, of, line)?.straight(line.which - 1));
+            let straight = |of: &String| Ok(fitted(run, of, None, line)?.straight(line.which - 1));
             let [time, value] = meeting(&straight(&of[0])?, &straight(&of[1])?)?;
             Ok(match take {
                 Coordinate::Time => time,
                 Coordinate::Value => value,
             })
         }
+        Derivation::Value { of, at } => {
+            let (times, values, _) = series(run, of).map_err(|missing| FitError(missing.0))?;
+            let outside = || FitError(format!("`{of}` has no sample at {at} s"));
+            interpolation::at(times, values, *at)
+                .map(exact)
+                .ok_or_else(outside)
+        }
+        Derivation::Reduced { of, window, to } => {
+            let (_, values) = inside(run, of, None, *window)?;
+            if values.is_empty() {
+                return Err(FitError(format!("`{of}` has no sample in the window")));
+            }
+            let number = match to {
+                Reduction::Mean => values.iter().sum::<f64>() / values.len() as f64,
+                Reduction::Smallest => values.iter().copied().fold(f64::INFINITY, f64::min),
+                Reduction::Largest => values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+            };
+            Ok(exact(number))
+        }
+        Derivation::Passes { of, share } => {
+            let (times, values) = inside(run, of, None, [None, None])?;
+            passed(&times, &values, *share)
+                .map(exact)
+                .ok_or_else(|| FitError(format!("`{of}` never comes to {share} of its first value")))
+        }
     }
 }
 
-/// The segments of a series over a window.
+/// A number that is no estimate.
+fn exact(value: f64) -> Estimate {
+    Estimate {
+        value,
+        standard_error: 0.0,
+        freedom: 1.0,
+    }
+}
+
+/// When values first come to a share of the first one, straight between samples.
+fn passed(times: &[f64], values: &[f64], share: f64) -> Option<f64> {
+    let level = share * values.first()?;
+    let beyond = |value: &f64| {
+        if share > 1.0 {
+            *value > level
+        } else {
+            *value < level
+        }
+    };
+    let after = values.iter().position(beyond)?;
+    let Some(before) = after.checked_sub(1) else {
+        return times.first().copied();
+    };
+    let part = (level - values[before]) / (values[after] - values[before]);
+    Some(times[before] + part * (times[after] - times[before]))
+}
+
+/// The segments of a series over a window, along time or another series.
 ///
 /// # Errors
 /// A run without the series, or a series that the segments do not fit.
-pub fn fitted(run: &Run, of: &str, line: &Segment) -> Result<Segmented, FitError> {
-    let (times, values, _) = series(run, of).map_err(|missing| FitError(missing.0))?;
-    let [from, to] = line.window;
-    let from = from.unwrap_or(f64::NEG_INFINITY);
-    let to = to.unwrap_or(f64::INFINITY);
+pub fn fitted(run: &Run, of: &str, over: Option<&str>, line: &Segment) -> Result<Segmented, FitError> {
+    let (places, values) = inside(run, of, over, line.window)?;
+    segmented::fit(&places, &values, line.segments).map_err(|fault| FitError(format!("`{of}`: {fault}")))
+}
+
+/// A series in a window of times, with those times or the values of another series.
+fn inside(
+    run: &Run,
+    of: &str,
+    over: Option<&str>,
+    [from, to]: [Option<f64>; 2],
+) -> Result<(Vec<f64>, Vec<f64>), FitError> {
+    let found = |name: &str| series(run, name).map_err(|missing| FitError(missing.0));
+    let (times, values, _) = found(of)?;
+    let places = match over {
+        Some(over) => found(over)?.1,
+        None => times,
+    };
+    let window = from.unwrap_or(f64::NEG_INFINITY)..=to.unwrap_or(f64::INFINITY);
     // A front that is not there yet, or no more, is no number.
-    let inside = times
+    Ok(times
         .iter()
-        .zip(values)
-        .filter(|(time, value)| (from..=to).contains(*time) && !value.is_nan());
-    let (times, values): (Vec<f64>, Vec<f64>) = inside.unzip();
-    segmented::fit(&times, &values, line.segments).map_err(|fault| FitError(format!("`{of}`: {fault}")))
+        .zip(places.iter().zip(values))
+        .filter(|(time, (place, value))| window.contains(*time) && !value.is_nan() && !place.is_nan())
+        .map(|(_, pair)| pair)
+        .unzip())
 }

@@ -108,6 +108,7 @@ fn solutions() -> Vec<Solution> {
         cake_growth::thickness_solution(),
         darcy_in_series::flux_solution(),
         darcy_in_series::pressure_solution(),
+        ruth::line_solution(),
         ruth::slope_solution(),
         ruth::intercept_solution(),
         rehearsal::limit(),

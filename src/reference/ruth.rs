@@ -17,6 +17,7 @@ use super::kozeny_carman::specific_resistance;
 use super::settings::Case;
 use super::{Entry, Kind, ReferenceError, Solution};
 
+const LINE: &str = "ruth_line";
 const SLOPE: &str = "ruth_slope";
 const INTERCEPT: &str = "ruth_intercept";
 const SOURCE: &str = "Ruth (1935), Ind. Eng. Chem. 27, 708, with settling; Alvim (2016), eq. 6";
@@ -54,6 +55,25 @@ fn slope(case: &Case) -> Result<f64, ReferenceError> {
 fn intercept(case: &Case) -> Result<f64, ReferenceError> {
     let (_, drive, filter) = resistance(INTERCEPT, case)?;
     Ok(filter.medium_resistance / drive)
+}
+
+/// t/V [s/m] at volumes V [m].
+fn line(case: &Case, volumes: &[f64]) -> Result<Vec<f64>, ReferenceError> {
+    let (cake, drive, filter) = resistance(LINE, case)?;
+    let at = |volume: &f64| (filter.medium_resistance + 0.5 * cake * volume) / drive;
+    Ok(volumes.iter().map(at).collect())
+}
+
+pub(super) fn line_solution() -> Solution {
+    Solution {
+        entry: Entry {
+            name: LINE,
+            meaning: "t/V over V at constant pressure, from the measured porosity of the cake",
+            source: SOURCE,
+        },
+        unit: "s/m",
+        kind: Kind::Series(line),
+    }
 }
 
 pub(super) fn slope_solution() -> Solution {

@@ -119,6 +119,7 @@ fn only(scene: &str, figure: Figure) -> Figure {
 fn figures() -> Vec<Figure> {
     let series = |against: bool, group: Option<&str>| FigureKind::TimeSeries {
         of: vec!["velocity".into()],
+        over: None,
         against: against.then(|| "stokes_start_up".into()),
         group: group.map(Into::into),
     };

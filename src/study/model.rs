@@ -82,9 +82,17 @@ pub enum Derivation {
     /// Slope of one segment of a series.
     Slope {
         of: String,
+        /// The series in the place of time.
+        over: Option<String>,
         line: Segment,
         /// Whether falling counts as positive.
         falling: bool,
+    },
+    /// Value at zero of the straight line through a series.
+    Intercept {
+        of: String,
+        over: Option<String>,
+        line: Segment,
     },
     /// Time at which a segment of a series joins the next.
     Breakpoint { of: String, line: Segment },
@@ -94,14 +102,37 @@ pub enum Derivation {
         line: Segment,
         take: Coordinate,
     },
+    /// Value of a series at a time [s].
+    Value { of: String, at: f64 },
+    /// One number for a series in a window, start and end [s].
+    Reduced {
+        of: String,
+        window: [Option<f64>; 2],
+        to: Reduction,
+    },
+    /// Time at which a series first comes to a share of its first value.
+    Passes { of: String, share: f64 },
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reduction {
+    Mean,
+    Smallest,
+    Largest,
 }
 
 impl Derivation {
     /// The series that it is made of.
-    pub fn sources(&self) -> &[String] {
+    pub fn sources(&self) -> Vec<&String> {
         match self {
-            Derivation::Slope { of, .. } | Derivation::Breakpoint { of, .. } => std::slice::from_ref(of),
-            Derivation::Crossing { of, .. } => of,
+            Derivation::Slope { of, over, .. } | Derivation::Intercept { of, over, .. } => {
+                std::iter::once(of).chain(over).collect()
+            }
+            Derivation::Breakpoint { of, .. }
+            | Derivation::Value { of, .. }
+            | Derivation::Reduced { of, .. }
+            | Derivation::Passes { of, .. } => vec![of],
+            Derivation::Crossing { of, .. } => of.iter().collect(),
         }
     }
 }
@@ -470,6 +501,8 @@ pub enum FigureKind {
     /// Series over time, one line per run, with the reference where one is named.
     TimeSeries {
         of: Vec<String>,
+        /// The series in the place of time.
+        over: Option<String>,
         against: Option<String>,
         group: Option<String>,
     },

@@ -94,6 +94,7 @@ const SOLUTIONS: &[(&str, ObservableKind)] = &[
     ("cake_thickness", Scalar),
     ("darcy_flux", Scalar),
     ("darcy_pressure_drop", Scalar),
+    ("ruth_line", Series),
     ("ruth_slope", Scalar),
     ("ruth_intercept", Scalar),
     ("known_limit", Scalar),

@@ -163,9 +163,9 @@ pub fn dimension(unit: &str) -> Option<Dimension> {
     }
 }
 
-/// Unit of a quantity over time: `m/s` for `m`.
-pub fn per_time(unit: &str) -> Option<String> {
-    Some(dimension(unit)?.times(Dimension::FREQUENCY).unit())
+/// Unit of one quantity over another: `m/s` for `m` and `s`.
+pub fn per(unit: &str, over: &str) -> Option<String> {
+    Some(dimension(unit)?.times(dimension(over)?.raised(-1)).unit())
 }
 
 /// Reads `number unit`.

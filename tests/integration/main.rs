@@ -4,6 +4,7 @@ mod architecture;
 mod bad_inputs;
 mod cli;
 mod crash;
+mod filtration;
 mod readers;
 mod rehearsals;
 mod runner;

@@ -129,12 +129,12 @@ fn every_choice_arrives_in_si_units() {
     assert_eq!(bed.classes.len(), 2);
     assert_eq!(bed.classes[1].largest_diameter, Some(3e-4));
     assert_eq!(bed.container.sides, Sides::Periodic);
-    let floor = FloorGrains {
+    let side_by_side = FloorGrains {
         diameter: 3e-4,
         gap: 0.0,
         layers: 1,
     };
-    assert_eq!(bed.container.floor, Floor::Grains(floor));
+    assert_eq!(bed.container.floor, Floor::Grains(side_by_side));
     // Deep enough for the largest grain where no depth is given.
     assert_eq!(bed.container.depth, 3e-4);
     assert_eq!(bed.arrangement, Arrangement::Packed { solids_fraction: 0.5 });

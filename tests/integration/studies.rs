@@ -7,6 +7,7 @@ use kynch::study::{self};
 use kynch_sim::scene::{Fluid, Scene};
 use proptest::prelude::*;
 
+use crate::filtration::ACROSS;
 use crate::sedimentation::{OTHER, VARIED};
 
 fn load(name: &str) -> Study {
@@ -209,10 +210,10 @@ proptest! {
 
     #[test]
     fn no_mutation_of_a_study_panics(
-        which in 0..4usize,
+        which in 0..5usize,
         edits in prop::collection::vec((any::<prop::sample::Index>(), 0..12usize, snippet()), 1..6),
     ) {
-        let good = [SPHERES, include_str!("../../studies/smoke.yaml"), OTHER, VARIED];
+        let good = [SPHERES, include_str!("../../studies/smoke.yaml"), OTHER, VARIED, ACROSS];
         let mut text: Vec<char> = good[which].chars().collect();
         for (place, removed, inserted) in edits {
             let from = place.index(text.len() + 1);

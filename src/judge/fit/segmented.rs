@@ -267,6 +267,24 @@ impl Segmented {
     }
 }
 
+impl Straight {
+    /// Value of the line at a time.
+    pub fn at(&self, time: f64) -> Estimate {
+        Estimate {
+            value: self.intercept + self.slope.value * (time - self.origin),
+            standard_error: self.variance_at(time).max(0.0).sqrt(),
+            freedom: self.slope.freedom,
+        }
+    }
+
+    fn variance_at(&self, time: f64) -> f64 {
+        let distance = time - self.origin;
+        self.intercept_variance
+            + 2.0 * distance * self.covariance
+            + (distance * self.slope.standard_error).powi(2)
+    }
+}
+
 /// Where two lines meet: time and value.
 ///
 /// # Errors
@@ -282,13 +300,7 @@ pub fn meeting(one: &Straight, other: &Straight) -> Result<[Estimate; 2], FitErr
             "the two lines run alongside each other and do not meet".to_string(),
         ));
     }
-    let variance_at = |line: &Straight| {
-        let distance = from + span - line.origin;
-        line.intercept_variance
-            + 2.0 * distance * line.covariance
-            + (distance * line.slope.standard_error).powi(2)
-    };
-    let (first, second) = (variance_at(one), variance_at(other));
+    let (first, second) = (one.variance_at(from + span), other.variance_at(from + span));
     let freedom = one.slope.freedom.min(other.slope.freedom);
     let estimate = |value: f64, variance: f64| Estimate {
         value,

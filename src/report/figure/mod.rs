@@ -191,8 +191,18 @@ fn stem(id: &str) -> String {
 impl Material<'_> {
     fn draw(&self) -> Result<Plate, ReportError> {
         match &self.figure.kind {
-            FigureKind::TimeSeries { of, against, group } => {
-                time_series::draw(self, of, against.as_deref(), group.as_deref())
+            FigureKind::TimeSeries {
+                of,
+                over,
+                against,
+                group,
+            } => {
+                let question = time_series::Question {
+                    of,
+                    over: over.as_deref(),
+                    against: against.as_deref(),
+                };
+                time_series::draw(self, &question, group.as_deref())
             }
             FigureKind::ErrorAgainstResolution {
                 of,

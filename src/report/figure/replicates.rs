@@ -2,7 +2,7 @@
 
 use crate::judge::select::same;
 use crate::judge::statistics::Sample;
-use crate::store::model::{Column, Run, Table};
+use crate::store::model::{Column, Run, Scalar, Table};
 
 /// Column of the sample standard deviation of another: no observable has a name with a space.
 pub fn deviation_of(column: &str) -> String {
@@ -27,10 +27,26 @@ pub fn averaged(runs: &[&Run]) -> Option<Vec<Run>> {
         let averaged = first.tables.iter().filter_map(|table| average(members, table));
         Run {
             tables: averaged.collect(),
+            scalars: scalars(members),
             ..first.clone()
         }
     };
     Some(settings.iter().map(mean).collect())
+}
+
+/// Means of the scalars that all have.
+fn scalars(runs: &[&Run]) -> Vec<Scalar> {
+    let mean = |scalar: &Scalar| {
+        let values: Option<Vec<f64>> = runs
+            .iter()
+            .map(|run| Some(run.scalar(&scalar.name)?.value))
+            .collect();
+        Some(Scalar {
+            value: Sample::of(values?).mean,
+            ..scalar.clone()
+        })
+    };
+    runs[0].scalars.iter().filter_map(mean).collect()
 }
 
 /// For the caption.

@@ -1,4 +1,4 @@
-//! Series over time: one line per run, the reference dashed in black.
+//! Series over time, or over another series: one line per run, the reference dashed in black.
 
 use super::super::axis::Scale;
 use super::super::canvas::Area;
@@ -14,17 +14,30 @@ use crate::store::model::{Column, Run};
 const TABLE: &str = "time_series";
 const TIME: &str = "time";
 
-pub fn draw(
-    material: &Material,
-    of: &[String],
-    against: Option<&str>,
-    group: Option<&str>,
-) -> Result<Plate, ReportError> {
+/// What is drawn over what.
+pub struct Question<'a> {
+    pub of: &'a [String],
+    /// The series in the place of time.
+    pub over: Option<&'a str>,
+    /// Name of the reference.
+    pub against: Option<&'a str>,
+}
+
+impl Question<'_> {
+    /// Name of what lies along the axis.
+    fn along(&self) -> &str {
+        self.over.unwrap_or(TIME)
+    }
+}
+
+pub fn draw(material: &Material, question: &Question, group: Option<&str>) -> Result<Plate, ReportError> {
+    let Question { of, against, .. } = *question;
     let looks = lines::looks(material, of, group);
-    let (drawn, unit) = computed(material, of, &looks.styles)?;
-    let references = references(material, against)?;
+    let (drawn, unit) = computed(material, question, &looks.styles)?;
+    let references = references(material, question)?;
+    let (along, along_unit) = (format::words(question.along()), unit_along(material, question)?);
     let all = || drawn.iter().chain(references.iter().map(|(line, _)| line));
-    let time = format::readable("s", lines::largest(all().flat_map(|line| &line.x)));
+    let time = format::readable(&along_unit, lines::largest(all().flat_map(|line| &line.x)));
     let value = format::readable(&unit, lines::largest(all().flat_map(|line| &line.y)));
     let quantity = of
         .iter()
@@ -33,7 +46,7 @@ pub fn draw(
         .join(", ");
     let mut panel = Panel::new(
         Axis {
-            title: format!("time{}", time.in_brackets()),
+            title: format!("{along}{}", time.in_brackets()),
             scale: Scale::tight(all().flat_map(|line| line.x.iter().map(|x| x * time.factor))),
         },
         Axis {
@@ -68,11 +81,11 @@ pub fn draw(
             time.label
         ));
     }
-    let suggested = format!("{quantity} over time");
+    let suggested = format!("{quantity} over {along}");
     let title = material.title(&suggested);
-    let description = format!("{} lines of {quantity} over time.", drawn.len());
+    let description = format!("{} lines of {quantity} over {along}.", drawn.len());
     let drawing = panel.finish(&legend, &material.id(), &title, &description)?;
-    let table = table(material, of, against, &unit)?;
+    let table = table(material, question, (&unit, &along_unit))?;
     Ok(material.plate(title, drawing, material.captioned(&suggested, notes), table))
 }
 
@@ -143,10 +156,8 @@ fn round_up(value: f64) -> Option<f64> {
     round.into_iter().find(|round| *round >= value * 0.999)
 }
 
-fn series<'a>(run: &'a Run, of: &str) -> Result<(&'a Column, &'a Column), ReportError> {
-    let found = run
-        .table(TABLE)
-        .and_then(|table| Some((table.column(TIME)?, table.column(of)?)));
+fn series<'a>(run: &'a Run, of: &str) -> Result<&'a Column, ReportError> {
+    let found = run.table(TABLE).and_then(|table| table.column(of));
     found.ok_or_else(|| {
         ReportError(format!(
             "run {} keeps no series `{of}`: add it to `observe`",
@@ -164,14 +175,14 @@ fn scatter(run: &Run, of: &str) -> Option<lines::Band> {
 
 fn computed(
     material: &Material,
-    of: &[String],
+    question: &Question,
     looks: &[lines::Look],
 ) -> Result<(Vec<Line>, String), ReportError> {
     let mut drawn = Vec::new();
     let mut unit: Option<String> = None;
-    for (place, quantity) in of.iter().enumerate() {
+    for (place, quantity) in question.of.iter().enumerate() {
         for (index, run) in material.runs.iter().enumerate() {
-            let (time, column) = series(run, quantity)?;
+            let column = series(run, quantity)?;
             let known = unit.get_or_insert_with(|| column.unit.clone());
             if *known != column.unit {
                 let message = format!(
@@ -181,7 +192,7 @@ fn computed(
                 return Err(ReportError(message));
             }
             let (style, opacity, markers) = looks[index + place * material.runs.len()];
-            let (x, y) = (time.values.clone(), column.values.clone());
+            let (x, y) = (places(run, question)?.values.clone(), column.values.clone());
             let band = scatter(run, quantity);
             drawn.push(Line {
                 x,
@@ -197,17 +208,17 @@ fn computed(
 }
 
 /// Each distinct reference curve once.
-fn references(material: &Material, against: Option<&str>) -> Result<Vec<(Line, String)>, ReportError> {
-    let Some(name) = against else {
+fn references(material: &Material, question: &Question) -> Result<Vec<(Line, String)>, ReportError> {
+    let Some(name) = question.against else {
         return Ok(Vec::new());
     };
     let mut found: Vec<(Line, String)> = Vec::new();
     for run in &material.runs {
         if let Some(points) = (material.numbers.points)(run, name).map_err(ReportError)? {
-            measured(points, &times(run)?, &mut found);
+            measured(points, &places(run, question)?.values, &mut found);
             continue;
         }
-        let times = times(run)?;
+        let times = places(run, question)?.values.clone();
         let curve = (material.numbers.curve)(run, name, &times).map_err(ReportError)?;
         let known = found
             .iter()
@@ -247,19 +258,24 @@ fn measured(points: Measured, times: &[f64], found: &mut Vec<(Line, String)>) {
     found.push((line, points.source));
 }
 
-fn times(run: &Run) -> Result<Vec<f64>, ReportError> {
-    let column = run.table(TABLE).and_then(|table| table.column(TIME));
-    let column = column.ok_or_else(|| ReportError(format!("run {} keeps no time series", run.id.0)))?;
-    Ok(column.values.clone())
+/// What lies along the axis.
+fn places<'a>(run: &'a Run, question: &Question) -> Result<&'a Column, ReportError> {
+    series(run, question.along())
+}
+
+fn unit_along(material: &Material, question: &Question) -> Result<String, ReportError> {
+    let first = material.runs.first();
+    let unit = first.map(|run| Ok(places(run, question)?.unit.clone()));
+    unit.unwrap_or_else(|| Ok("s".to_owned()))
 }
 
 fn table(
     material: &Material,
-    of: &[String],
-    against: Option<&str>,
-    unit: &str,
+    question: &Question,
+    (unit, along_unit): (&str, &str),
 ) -> Result<Table, ReportError> {
-    let mut head = vec!["run".to_owned(), "time [s]".to_owned()];
+    let Question { of, against, .. } = *question;
+    let mut head = vec!["run".to_owned(), format!("{} [{along_unit}]", question.along())];
     head.extend(of.iter().map(|name| format!("{name} [{unit}]")));
     let means = material.runs.iter().any(|run| scatter(run, &of[0]).is_some());
     if means {
@@ -269,8 +285,8 @@ fn table(
     head.extend(against.map(|name| format!("{name} [{unit}]")));
     let mut rows = Vec::new();
     for run in &material.runs {
-        let times = times(run)?;
-        let columns = of.iter().map(|name| Ok(&series(run, name)?.1.values));
+        let times = places(run, question)?.values.clone();
+        let columns = of.iter().map(|name| Ok(&series(run, name)?.values));
         let columns = columns.collect::<Result<Vec<_>, ReportError>>()?;
         let scatters: Vec<_> = of.iter().map(|name| scatter(run, name)).collect();
         let label = selection::label(material.study, run);

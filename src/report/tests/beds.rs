@@ -232,6 +232,7 @@ fn figures_of_beds_can_be_read() {
     let study = study(&folder.path().join("studies/beds.yaml").display().to_string());
     let series = FigureKind::TimeSeries {
         of: vec!["porosity".into()],
+        over: None,
         against: None,
         group: Some("viscosity".into()),
     };
@@ -442,6 +443,7 @@ fn published_references_stand_where_they_have_a_value() {
 fn curves_over_seeds_are_means_with_bands() {
     let series = FigureKind::TimeSeries {
         of: vec!["porosity".into()],
+        over: None,
         against: None,
         group: Some("viscosity".into()),
     };

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::quantity::Time;
+use super::quantity::{Fraction, Time};
 
 /// How a number is made of series.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -11,16 +11,30 @@ use super::quantity::Time;
 pub enum DerivedSpec {
     /// Slope of a straight segment of a series, robust, with its interval.
     Slope(SlopeSpec),
+    /// Where the straight line through a series begins: its value at zero.
+    Intercept(InterceptSpec),
     /// Time at which two straight segments of a series join.
     Breakpoint(BreakpointSpec),
     /// Time, or value, at which the straight lines through two series meet.
     Crossing(CrossingSpec),
+    /// Value of a series at a time, straight between its samples.
+    Value(ValueAtSpec),
+    /// Mean of a series over a window.
+    Mean(OverWindowSpec),
+    /// Smallest value of a series in a window.
+    Smallest(OverWindowSpec),
+    /// Largest value of a series in a window.
+    Largest(OverWindowSpec),
+    /// Time at which a series first comes to a share of its first value.
+    Passes(PassesSpec),
 }
 
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 pub struct SlopeSpec {
     /// The series.
     pub of: String,
+    /// The series that takes the place of time; the window stays one of times.
+    pub over: Option<String>,
     #[serde(flatten)]
     pub window: WindowSpec,
     /// Straight segments over the window, one to three; one if left out.
@@ -79,4 +93,37 @@ pub struct WindowSpec {
     pub from: Option<Time>,
     /// End of the window; that of the series if left out.
     pub to: Option<Time>,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct InterceptSpec {
+    /// The series.
+    pub of: String,
+    /// The series that takes the place of time; the window stays one of times.
+    pub over: Option<String>,
+    #[serde(flatten)]
+    pub window: WindowSpec,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct ValueAtSpec {
+    /// The series.
+    pub of: String,
+    pub at: Time,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct OverWindowSpec {
+    /// The series.
+    pub of: String,
+    #[serde(flatten)]
+    pub window: WindowSpec,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct PassesSpec {
+    /// The series.
+    pub of: String,
+    /// Of its first value; below it for 1 and less, above it for more.
+    pub share: Fraction,
 }

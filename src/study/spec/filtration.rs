@@ -16,7 +16,7 @@ pub struct FiltrationSpec {
     pub feed: FeedSpec,
     pub filtrate: FiltrateSpec,
     /// Which grains belong to the cake.
-    #[serde(default = "DepositedSpec::settled")]
+    #[serde(default = "DepositedSpec::slow")]
     pub deposited: DepositedSpec,
 }
 
@@ -153,7 +153,9 @@ pub enum CakePermeabilitySpec {
 #[derive(Clone, Copy, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DepositedSpec {
-    /// Those that have settled, carried by a chain of contacts to the medium.
+    /// Those slower than a tenth of the terminal speed that a chain of contacts among their like carries.
+    Slow,
+    /// Those that have settled as in a sedimentation: slower than a hundredth of it, hardly moved, and carried.
     Settled,
     /// All that a chain of contacts carries.
     Carried,
@@ -174,7 +176,7 @@ default_choice! {
     ResistanceSpec::series = Series;
     CakeLengthSpec::thickness = Thickness;
     CakePermeabilitySpec::mean = Mean;
-    DepositedSpec::settled = Settled;
+    DepositedSpec::slow = Slow;
 }
 
 fn five() -> Fraction {

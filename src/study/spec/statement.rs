@@ -244,7 +244,7 @@ pub enum RelationSpec {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FigureSpec {
-    /// Series over time, one line per run.
+    /// Series over time or over another series, one line per run.
     TimeSeries(TimeSeriesSpec),
     /// Relative error over an axis.
     ErrorAgainstResolution(ErrorAgainstResolutionSpec),
@@ -285,6 +285,8 @@ pub struct Caption {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 pub struct TimeSeriesSpec {
     pub of: OneOrMore<String>,
+    /// The series in the place of time.
+    pub over: Option<String>,
     /// Name of the reference curve.
     pub against: Option<String>,
     #[serde(flatten)]

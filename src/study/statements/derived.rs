@@ -4,12 +4,13 @@ use kynch_sim::scene::ObservableKind::Series;
 
 use super::{Context, Reader, Written};
 use crate::study::axes::is_name;
-use crate::study::model::{Coordinate, Derivation, Derived, Segment};
+use crate::study::model::{Coordinate, Derivation, Derived, Reduction, Segment};
 use crate::study::names::{is_measured_work, observables};
 use crate::study::problem::Problems;
 use crate::study::shape::Place;
 use crate::study::spec::derived::{
-    BreakpointSpec, CoordinateSpec, CrossingSpec, DerivedSpec, SignSpec, SlopeSpec, WindowSpec,
+    BreakpointSpec, CoordinateSpec, CrossingSpec, DerivedSpec, InterceptSpec, OverWindowSpec, PassesSpec,
+    SignSpec, SlopeSpec, ValueAtSpec, WindowSpec,
 };
 use crate::study::units;
 use crate::study::yaml::{Key, Node};
@@ -78,17 +79,32 @@ impl Reader<'_, '_> {
         match spec {
             DerivedSpec::Slope(SlopeSpec {
                 of,
+                over,
                 window,
                 segments,
                 which,
                 sign,
             }) => {
-                let unit = self
-                    .unit_of_series("of", &of)
-                    .and_then(|unit| units::per_time(&unit));
+                let unit = self.unit_of_series("of", &of);
+                let along = self.unit_along(over.as_deref());
+                let unit = unit
+                    .zip(along)
+                    .and_then(|(unit, along)| units::per(&unit, &along));
                 let line = self.segment(window, (segments.unwrap_or(1), 1), which, 0);
                 let falling = sign == Some(SignSpec::Falling);
-                (Derivation::Slope { of, line, falling }, unit)
+                let slope = Derivation::Slope {
+                    of,
+                    over,
+                    line,
+                    falling,
+                };
+                (slope, unit)
+            }
+            DerivedSpec::Intercept(InterceptSpec { of, over, window }) => {
+                let unit = self.unit_of_series("of", &of);
+                self.unit_along(over.as_deref());
+                let line = self.segment(window, (1, 1), None, 0);
+                (Derivation::Intercept { of, over, line }, unit)
             }
             DerivedSpec::Breakpoint(BreakpointSpec {
                 of,
@@ -101,6 +117,33 @@ impl Reader<'_, '_> {
                 (Derivation::Breakpoint { of, line }, Some("s".to_owned()))
             }
             DerivedSpec::Crossing(spec) => self.crossing(spec),
+            DerivedSpec::Value(ValueAtSpec { of, at }) => {
+                let unit = self.unit_of_series("of", &of);
+                (Derivation::Value { of, at: at.0 }, unit)
+            }
+            DerivedSpec::Mean(spec) => self.reduced(spec, Reduction::Mean),
+            DerivedSpec::Smallest(spec) => self.reduced(spec, Reduction::Smallest),
+            DerivedSpec::Largest(spec) => self.reduced(spec, Reduction::Largest),
+            DerivedSpec::Passes(PassesSpec { of, share }) => {
+                self.unit_of_series("of", &of);
+                let (of, share) = (of, share.0);
+                (Derivation::Passes { of, share }, Some("s".to_owned()))
+            }
+        }
+    }
+
+    fn reduced(&mut self, spec: OverWindowSpec, to: Reduction) -> (Derivation, Option<String>) {
+        let unit = self.unit_of_series("of", &spec.of);
+        let window = self.segment(spec.window, (1, 1), None, 0).window;
+        let of = spec.of;
+        (Derivation::Reduced { of, window, to }, unit)
+    }
+
+    /// Unit of the series in the place of time, or of time.
+    fn unit_along(&mut self, over: Option<&str>) -> Option<String> {
+        match over {
+            Some(over) => self.unit_of_series("over", over),
+            None => Some("s".to_owned()),
         }
     }
 

@@ -206,7 +206,7 @@ pub fn observe(
         Check::Status { .. } => None,
     });
     let of_figures = figures.iter().flat_map(|figure| match &figure.kind {
-        FigureKind::TimeSeries { of, .. } => of.clone(),
+        FigureKind::TimeSeries { of, over, .. } => of.iter().chain(over).cloned().collect(),
         FigureKind::ErrorAgainstResolution { of, .. }
         | FigureKind::RunTimeAgainstError { of, .. }
         | FigureKind::Response { of, .. }
@@ -363,6 +363,9 @@ impl Reader<'_, '_> {
                 for of in &spec.of.0 {
                     self.observable("of", of, &[Series]);
                 }
+                if let Some(over) = &spec.over {
+                    self.observable("over", over, &[Series]);
+                }
                 if let Some(against) = &spec.against {
                     self.level(against, spec.of.0.first());
                 }
@@ -371,6 +374,7 @@ impl Reader<'_, '_> {
                     spec.caption,
                     FigureKind::TimeSeries {
                         of: spec.of.0,
+                        over: spec.over,
                         against: spec.against,
                         group,
                     },

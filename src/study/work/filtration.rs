@@ -18,6 +18,7 @@ pub fn filtration(spec: &FiltrationSpec) -> Filtration {
         filtrate: filtrate(&spec.filtrate),
         crossflow,
         deposited: match spec.deposited {
+            DepositedSpec::Slow => Deposited::Slow,
             DepositedSpec::Settled => Deposited::Settled,
             DepositedSpec::Carried => Deposited::Carried,
         },
@@ -88,20 +89,4 @@ fn filtrate(spec: &FiltrateSpec) -> Filtrate {
             CakePermeabilitySpec::Layered => CakePermeability::Layered,
         },
     }
-}
-
-/// Where a fault of the scene stands in the file: `fluid` and `crossflow` of the simulator are one model here.
-pub fn path(spec: &FiltrationSpec, fault: &str) -> String {
-    let model = match spec.fluid {
-        FiltratingFluidSpec::Uniform(_) => "fluid.uniform",
-        FiltratingFluidSpec::Parabolic(_) => "fluid.parabolic",
-    };
-    for simulated in ["fluid.column", "fluid.still", "crossflow"] {
-        match fault.strip_prefix(simulated) {
-            Some("") => return model.to_owned(),
-            Some(rest) if rest.starts_with('.') => return format!("{model}{rest}"),
-            _ => {}
-        }
-    }
-    fault.to_owned()
 }

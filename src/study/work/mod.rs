@@ -158,13 +158,10 @@ pub fn refusals(spec: &SceneSpec, work: &Work) -> Vec<Fault> {
 }
 
 /// A fault of a scene where its study writes it.
-fn placed(spec: &SceneSpec, mut fault: Fault) -> Fault {
+fn placed(spec: &SceneSpec, fault: Fault) -> Fault {
     match spec {
         SceneSpec::Sedimentation(spec) => sedimentation::placed(&spec.bed, fault),
-        SceneSpec::Filtration(spec) => {
-            fault.path = filtration::path(spec, &fault.path);
-            sedimentation::placed(&spec.bed, fault)
-        }
+        SceneSpec::Filtration(spec) => sedimentation::placed(&spec.bed, fault),
         SceneSpec::Suspension(spec) => suspension::placed(&spec.classes, fault),
         SceneSpec::ConstantPorosityBlock(spec) => suspension::placed(&spec.classes, fault),
         _ => fault,
