@@ -213,6 +213,8 @@ fn bed(grains: &[Grain], laws: Laws, flights: bool) -> Bed {
         viscosity: 0.0,
         drag: None,
         lift: false,
+        stream: None,
+        shear_lift: false,
     };
     let floor = Wall {
         normal: Vec3::z(),

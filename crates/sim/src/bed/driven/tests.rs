@@ -51,6 +51,8 @@ fn cloud() -> (Bed, Vec<Drive>) {
         viscosity: 0.0,
         drag: None,
         lift: false,
+        stream: None,
+        shear_lift: false,
     };
     let grains = Grains::new(&grains, &[]);
     let listing = Listing::Skin(Some(2.0));
