@@ -52,11 +52,14 @@ pub struct SuspendedClass {
 /// How even the concentration is at the start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Homogeneity {
-    /// At random without overlap, the same number of grains in cells a few diameters wide. Concentration
-    /// differs from place to place only over shorter lengths, so that no convection starts.
+    /// At random without overlap, but evenly over lengths of many grains, each class by itself. Concentration
+    /// then differs from place to place only over short lengths, and hardly any convection starts. The
+    /// default: with an `sph` fluid at porosity 0.9 the rms of the vertical velocity is a third of that after a
+    /// random start, and the mean settling speed nearer to the balance of forces.
     Even,
     /// At random without overlap, each grain wherever it fits. The number of grains in a volume scatters
-    /// as in a hard-sphere fluid, and denser regions sink through lighter ones.
+    /// as in a hard-sphere fluid, and denser regions sink through lighter ones: in an `sph` fluid grains settle
+    /// faster by a few per cent than the balance of forces has it.
     Random,
 }
 
