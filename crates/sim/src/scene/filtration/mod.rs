@@ -9,6 +9,7 @@ mod observables;
 mod operation;
 mod outcome;
 mod run;
+mod series;
 mod start;
 mod surface;
 mod watch;

@@ -45,6 +45,7 @@ pub fn run(scene: &Filtration, control: &Control) -> Result<Outcome, Box<Failure
         let target = (row as f64 / rows * steps as f64).round() as u64;
         while done < target {
             let batch = (target - done).min(round);
+            watch.part();
             if let Err(astray) = motion.advance(&mut watch.bed, batch) {
                 let reason = leapt(&astray, (done + batch) as f64 * dt);
                 return Err(failed(FailureKind::Diverged, reason, watch.outcome()));

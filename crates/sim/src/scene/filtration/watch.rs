@@ -57,6 +57,8 @@ pub struct Watch<'a> {
     passed: (usize, f64),
     filtrate: f64,
     flux: f64,
+    /// Whether anything has moved, come or gone since the last look: places in the bed are others.
+    moved: bool,
 }
 
 impl<'a> Watch<'a> {
@@ -86,6 +88,7 @@ impl<'a> Watch<'a> {
             passed: (0, 0.0),
             filtrate: 0.0,
             flux: operation.flux,
+            moved: false,
         }
     }
 
@@ -138,6 +141,8 @@ impl<'a> Watch<'a> {
     pub fn look(&mut self, done: u64) {
         let time = done as f64 * self.limits.time_step;
         let settled = self.deposit();
+        self.keep_places();
+        self.moved = false;
         let mut measures = Measures::of(&self.scene.bed, &self.bed, &settled);
         let cake = Cake::of(
             self.scene,
@@ -180,8 +185,13 @@ impl<'a> Watch<'a> {
         self.settled = Some(settled);
     }
 
-    /// Who belongs to the cake.
-    fn deposit(&mut self) -> Settled {
+    /// Tells that the bed is about to move.
+    pub fn part(&mut self) {
+        self.moved = true;
+    }
+
+    /// Keeps where everybody is.
+    fn keep_places(&mut self) {
         let grains = &self.bed.grains;
         // Who came later has been nowhere.
         let nowhere = Vec3::repeat(f64::NAN);
@@ -190,7 +200,16 @@ impl<'a> Watch<'a> {
             let name = self.names[grains.number[place] as usize];
             positions[name as usize] = grains.position(place);
         }
-        let settled = match self.scene.deposited {
+        self.places.push_back(positions);
+        if self.places.len() > WINDOW {
+            self.places.pop_front();
+        }
+    }
+
+    /// Who belongs to the cake.
+    fn deposit(&self) -> Settled {
+        let grains = &self.bed.grains;
+        match self.scene.deposited {
             Deposited::Carried => Settled::carried(&self.bed, |_| true),
             Deposited::Slow => {
                 let limit = SLOW * self.speed;
@@ -203,12 +222,7 @@ impl<'a> Watch<'a> {
                 });
                 Settled::of(&self.bed, before.as_deref(), self.speed)
             }
-        };
-        self.places.push_back(positions);
-        if self.places.len() > WINDOW {
-            self.places.pop_front();
         }
-        settled
     }
 
     /// Depth under the top of the cell at which the lowest grain was fed, in largest diameters [-].
@@ -243,7 +257,11 @@ impl<'a> Watch<'a> {
         diverged(&self.bed, &signs)
     }
 
-    pub fn outcome(&self) -> Outcome {
+    /// What is known, at any time: a run may end between two looks.
+    pub fn outcome(&mut self) -> Outcome {
+        if self.moved {
+            self.settled = Some(self.deposit());
+        }
         let time = self.rows.last().map_or(0.0, |row| row.time);
         let name = Self::name(&self.names, self.feeder.total());
         super::outcome::outcome(self, |contacts| {

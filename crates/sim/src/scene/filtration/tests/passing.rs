@@ -110,3 +110,31 @@ fn a_full_cell_lets_the_rest_wait_for_ever() {
     assert!(waiting > 0.0, "{fed}");
     assert!(scalar(&outcome, "volume_error") < 1e-13);
 }
+
+#[test]
+fn a_run_that_is_stopped_tells_what_it_knows_of_those_who_have_just_come() {
+    use std::cell::Cell;
+    for dimensions in [Dimensions::Two, Dimensions::Three] {
+        let mut scene = over_grains(0.0, 1);
+        scene.bed.dimensions = dimensions;
+        scene.bed.snapshots = 11;
+        for patience in [1, 3, 40, 41, 42, 43] {
+            let asked = Cell::new(0);
+            let control = Control {
+                stop: &|| {
+                    asked.set(asked.get() + 1);
+                    asked.get() > patience
+                },
+                progress: &|_| {},
+            };
+            let failure = run(&Scene::Filtration(scene.clone()), &control).unwrap_err();
+            assert!(
+                failure
+                    .partial
+                    .tables
+                    .iter()
+                    .any(|table| table.name == "snapshots")
+            );
+        }
+    }
+}
