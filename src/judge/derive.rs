@@ -146,3 +146,99 @@ fn inside(
         .map(|(_, pair)| pair)
         .unzip())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::store::model::{Column, PointId, Table, Timing};
+
+    /// 1 + 2 x over x = t², and a fall from 10 to 0 in 10 s.
+    fn run() -> Run {
+        let times: Vec<f64> = (0..=20).map(|index| 0.5 * f64::from(index)).collect();
+        let column = |name: &str, value: fn(f64) -> f64| Column {
+            name: name.into(),
+            unit: "1".into(),
+            values: times.iter().map(|time| value(*time)).collect(),
+        };
+        Run {
+            id: PointId("a".into()),
+            study: String::new(),
+            scene: "scene".into(),
+            axes: Vec::new(),
+            seed: 1,
+            settings: serde_json::Value::Null,
+            status: Status::Completed,
+            reason: None,
+            scalars: Vec::new(),
+            counters: Vec::new(),
+            tables: vec![Table {
+                name: "time_series".into(),
+                columns: vec![
+                    column("time", |time| time),
+                    column("place", |time| time * time),
+                    column("line", |time| {
+                        if time < 1.0 {
+                            f64::NAN
+                        } else {
+                            1.0 + 2.0 * time * time
+                        }
+                    }),
+                    column("fall", |time| 10.0 - time),
+                ],
+            }],
+            derived: Vec::new(),
+            timing: Timing::default(),
+        }
+    }
+
+    fn value(how: &Derivation) -> Result<f64, FitError> {
+        estimate(&run(), how).map(|found| found.value)
+    }
+
+    const WHOLE: Segment = Segment {
+        window: [None, None],
+        segments: 1,
+        which: 1,
+    };
+
+    #[test]
+    fn a_line_over_another_series_has_its_slope_and_begins_where_it_begins() {
+        let (of, over, line) = ("line".to_owned(), Some("place".to_owned()), WHOLE);
+        let slope = Derivation::Slope {
+            of: of.clone(),
+            over: over.clone(),
+            line,
+            falling: false,
+        };
+        assert!((value(&slope).unwrap() - 2.0).abs() < 1e-9);
+        let intercept = Derivation::Intercept { of, over, line };
+        assert!((value(&intercept).unwrap() - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn values_and_extremes_are_those_of_the_window() {
+        let of = "fall".to_owned();
+        let at = |at: f64| value(&Derivation::Value { of: of.clone(), at });
+        assert_eq!(at(2.25).unwrap(), 7.75);
+        assert!(at(11.0).unwrap_err().0.contains("no sample at 11 s"));
+        let reduced = |to: Reduction, window| {
+            let of = of.clone();
+            value(&Derivation::Reduced { of, window, to })
+        };
+        assert_eq!(reduced(Reduction::Mean, [Some(2.0), Some(4.0)]).unwrap(), 7.0);
+        assert_eq!(reduced(Reduction::Smallest, [None, Some(4.0)]).unwrap(), 6.0);
+        assert_eq!(reduced(Reduction::Largest, [None, None]).unwrap(), 10.0);
+        assert!(reduced(Reduction::Mean, [Some(20.0), None]).is_err());
+    }
+
+    #[test]
+    fn a_series_passes_a_share_of_its_first_value_once() {
+        let passes = |of: &str, share: f64| {
+            let of = of.to_owned();
+            value(&Derivation::Passes { of, share })
+        };
+        assert!((passes("fall", 0.98).unwrap() - 0.2).abs() < 1e-12);
+        assert!((passes("line", 3.0).unwrap() - 2.0).abs() < 1e-12);
+        assert!(passes("fall", 1.5).unwrap_err().0.contains("never comes to 1.5"));
+    }
+}

@@ -15,6 +15,7 @@ use super::settings::Case;
 use super::{Entry, Kind, ReferenceError, Solution};
 
 const GROWTH: &str = "cake_growth";
+const RATE: &str = "cake_growth_rate";
 const THICKNESS: &str = "cake_thickness";
 const SOURCE: &str =
     "balance of the solids over the front of the cake: Kynch (1952), Trans. Faraday Soc. 48, 166";
@@ -24,12 +25,22 @@ pub fn front_speed(solid_flux: f64, porosity: f64, suspended: f64) -> f64 {
     solid_flux / (1.0 - porosity - suspended)
 }
 
+/// Speed of the run's own front [m/s], and its porosity [-].
+fn own_front(name: &str, case: &Case, filter: &Filter) -> Result<(f64, f64), ReferenceError> {
+    let flux = filter.solid_flux(name)?;
+    let porosity = filter.porosity(case)?;
+    Ok((front_speed(flux, porosity, filter.suspended(flux)), porosity))
+}
+
+fn rate(case: &Case) -> Result<f64, ReferenceError> {
+    let filter = Filter::of(RATE, case)?;
+    Ok(own_front(RATE, case, &filter)?.0)
+}
+
 fn growth(case: &Case, times: &[f64]) -> Result<Vec<f64>, ReferenceError> {
     let filter = Filter::of(GROWTH, case)?;
-    let flux = filter.solid_flux(GROWTH)?;
-    let porosity = filter.porosity(case)?;
+    let (speed, porosity) = own_front(GROWTH, case, &filter)?;
     let first = case.measured("first_deposit_time")?;
-    let speed = front_speed(flux, porosity, filter.suspended(flux));
     let end = filter.solids_per_area() / (1.0 - porosity);
     Ok(times
         .iter()
@@ -51,6 +62,18 @@ pub(super) fn growth_solution() -> Solution {
         },
         unit: "m",
         kind: Kind::Series(growth),
+    }
+}
+
+pub(super) fn rate_solution() -> Solution {
+    Solution {
+        entry: Entry {
+            name: RATE,
+            meaning: "speed at which a cake fed at a constant rate grows, with its measured porosity",
+            source: SOURCE,
+        },
+        unit: "m/s",
+        kind: Kind::Scalar(rate),
     }
 }
 
@@ -92,6 +115,8 @@ mod tests {
         assert_eq!(thickness[..2], [0.0, 0.0]);
         assert!((thickness[3] / thickness[2] - 2.0).abs() < 1e-12);
         assert_eq!(thickness[4], end);
+        let rate = scalar("cake_growth_rate", &facts).unwrap().values[0];
+        assert!((rate * 0.2 / thickness[2] - 1.0).abs() < 1e-12);
         // Solids come down with the suspension as the front rises into it.
         let filter = filter(&settings);
         let flux = filter.solid_flux("test").unwrap();

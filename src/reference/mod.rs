@@ -105,6 +105,7 @@ fn solutions() -> Vec<Solution> {
         kozeny_carman::solution(),
         kozeny_carman::with_unit_slip(),
         cake_growth::growth_solution(),
+        cake_growth::rate_solution(),
         cake_growth::thickness_solution(),
         darcy_in_series::flux_solution(),
         darcy_in_series::pressure_solution(),

@@ -91,6 +91,7 @@ const SOLUTIONS: &[(&str, ObservableKind)] = &[
     ("kozeny_carman", Scalar),
     ("kozeny_carman_unit_slip", Scalar),
     ("cake_growth", Series),
+    ("cake_growth_rate", Scalar),
     ("cake_thickness", Scalar),
     ("darcy_flux", Scalar),
     ("darcy_pressure_drop", Scalar),
