@@ -1,6 +1,7 @@
 //! Reports of hand-built runs: what is on the page, and whether every figure can be read.
 
 mod beds;
+mod fits;
 
 use std::path::Path;
 

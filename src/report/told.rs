@@ -113,11 +113,9 @@ fn failing(verdict: &Verdict) -> Option<String> {
     if verdict.points.len() == 1 {
         return Some(format!("{}: {found}", worst.label));
     }
-    let of = verdict
-        .points
-        .iter()
-        .filter(|point| point.holds.is_some())
-        .count();
+    // Correlations stand beside a fit and are no points of it.
+    let counts = |point: &&PointVerdict| point.holds.is_some() || !point.label.contains(ALONG);
+    let of = verdict.points.iter().filter(counts).count();
     if of == 1 {
         return Some(format!("{}: {found}", worst.label));
     }

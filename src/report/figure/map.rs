@@ -15,6 +15,8 @@ use crate::store::model::Run;
 /// Colours told apart.
 const STEPS: usize = 96;
 const BAR_WIDTH: i32 = 320;
+/// How far a cell reaches up behind the next.
+const BEHIND: i32 = 20;
 /// What a line stands out by from the colours below it.
 const HALO: u32 = 40;
 
@@ -156,7 +158,8 @@ fn range(values: &[f64]) -> (f64, f64) {
     }
 }
 
-/// Each cell reaches to the right and up behind its neighbours, so that no seam shows.
+/// Cells of one colour above each other are one rectangle. It reaches to the right behind the next columns
+/// and a little up behind the next cell, so that no seam shows.
 fn picture(
     panel: &mut Panel,
     grid: &Grid,
@@ -164,30 +167,24 @@ fn picture(
     (times, heights): (&[f64], &[f64]),
     factors: (f64, f64),
 ) {
-    let Area { right, top, .. } = panel.plot;
-    let step = |value: f64| {
+    let step = |value: &f64| {
         let share = (value - low) / (high - low);
         value
             .is_finite()
             .then(|| (share * (STEPS - 1) as f64).round() as usize)
     };
     for (column, cells) in grid.values.chunks(grid.heights.len()).enumerate() {
-        let left = panel.across(times[column] * factors.0);
-        let mut below = None;
-        for (row, value) in cells.iter().enumerate() {
-            let step = step(*value);
-            if row > 0 && step == below {
-                continue;
-            }
-            below = step;
-            let bottom = panel.up(heights[row] * factors.1);
+        let mut row = 0;
+        for same in cells.chunk_by(|one, next| step(one) == step(next)) {
+            let edge = |row: usize| panel.up(heights[row] * factors.1);
             let area = Area {
-                left,
-                top,
-                right,
-                bottom,
+                left: panel.across(times[column] * factors.0),
+                top: (edge(row + same.len()) - BEHIND).max(panel.plot.top),
+                right: panel.plot.right,
+                bottom: edge(row),
             };
-            match step {
+            row += same.len();
+            match step(&same[0]) {
                 Some(step) => {
                     let colour = colour_map::colour(step as f64 / (STEPS - 1) as f64);
                     panel.canvas.area(corners(&area), colour, 1.0);
