@@ -8,9 +8,9 @@ mod suspension;
 pub use snapshot::Snapshots;
 
 use kynch_sim::scene::{
-    Column, ConstantPorosityBlock, Coupling, CouplingLengths, Drag, Fluid, Grains, Hydrostatics, KernelChoice, Medium,
-    PorosityPath, Scene, Scheme, SelfDisturbance, SharpeningChoice, SingleSphere, Slip, SoundSpeed, SphFluid,
-    Start, StressDensity, SuspendedClass,
+    Column, ConstantPorosityBlock, Coupling, CouplingLengths, Drag, Fluid, Grains, Hydrostatics,
+    KernelChoice, Medium, PorosityPath, Scene, Scheme, SelfDisturbance, SharpeningChoice, SingleSphere, Slip,
+    SoundSpeed, SphFluid, Start, StressDensity, SuspendedClass,
 };
 
 use super::faults::{Fault, faults};
@@ -32,7 +32,8 @@ pub fn completed(mut spec: SceneSpec, snapshots: &Snapshots) -> SceneSpec {
     }
     if let SceneSpec::ConstantPorosityBlock(block) = &mut spec {
         let classes = suspension::classes(&block.grains, &block.classes);
-        let volume = |class: &SuspendedClass| class.share * std::f64::consts::PI / 6.0 * class.diameter.powi(3);
+        let volume =
+            |class: &SuspendedClass| class.share * std::f64::consts::PI / 6.0 * class.diameter.powi(3);
         let pitch = cubic_pitch(classes.iter().map(volume).sum(), block.porosity.0);
         let width = block.column.width.0;
         block.grains_per_side.get_or_insert(count(width / pitch));
@@ -147,7 +148,9 @@ pub fn refusals(spec: &SceneSpec, work: &Work) -> Vec<Fault> {
                 return contradictions;
             }
             let found = faults(work).into_iter();
-            found.map(|fault| suspension::placed(&spec.classes, fault)).collect()
+            found
+                .map(|fault| suspension::placed(&spec.classes, fault))
+                .collect()
         }
         SceneSpec::ConstantPorosityBlock(spec) => {
             let name = "constant_porosity_block";
@@ -156,7 +159,9 @@ pub fn refusals(spec: &SceneSpec, work: &Work) -> Vec<Fault> {
                 return contradictions;
             }
             let found = faults(work).into_iter();
-            found.map(|fault| suspension::placed(&spec.classes, fault)).collect()
+            found
+                .map(|fault| suspension::placed(&spec.classes, fault))
+                .collect()
         }
         _ => faults(work),
     }

@@ -47,7 +47,10 @@ pub fn suspension(spec: &SuspensionSpec) -> Suspension {
 }
 
 /// The classes of grains, whichever way they are given.
-pub fn classes(grains: &Option<GrainsSpec>, several: &Option<Vec<SuspendedClassSpec>>) -> Vec<SuspendedClass> {
+pub fn classes(
+    grains: &Option<GrainsSpec>,
+    several: &Option<Vec<SuspendedClassSpec>>,
+) -> Vec<SuspendedClass> {
     let one = grains.iter().map(|grains| SuspendedClass {
         diameter: grains.diameter.0,
         density: grains.density.0,

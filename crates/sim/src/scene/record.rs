@@ -226,7 +226,11 @@ impl Recorder {
         let profiles = super::profiles::fluid(simulation);
         if !self.isolated {
             let solids = 1.0 - super::profiles::plateau_porosity(simulation);
-            push("edge_width", "m", solids / super::profiles::steepest(&profiles[0]));
+            push(
+                "edge_width",
+                "m",
+                solids / super::profiles::steepest(&profiles[0]),
+            );
         }
         let mut tables = vec![self.series()];
         tables.extend(profiles);
