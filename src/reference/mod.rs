@@ -246,6 +246,36 @@ mod tests {
         }
     }
 
+    fn two_classes(scene: &str, sizes: [f64; 2], densities: [f64; 2], drag: &str) -> Value {
+        let class = |k: usize| json!({"diameter": sizes[k], "density": densities[k], "share": 0.5});
+        json!({scene: {
+            "classes": [class(0), class(1)], "drag": drag, "porosity": 0.9,
+            "fluid": {"sph": {"density": 1000.0, "viscosity": 8.9e-4}},
+            "column": {"width": 4e-3, "height": 6e-3}, "gravity": 9.81}})
+    }
+
+    #[test]
+    fn classes_of_grains_reach_the_references_of_mixtures() {
+        // Raso (2014): the block of 150 and 100 µm, and the suspension of 2450 and 1500 kg/m³.
+        let block = two_classes(
+            "constant_porosity_block",
+            [1.5e-4, 1e-4],
+            [2500.0; 2],
+            "beetstra_cello",
+        );
+        assert!((value("force_balance", &block).unwrap() - 5.923e-3).abs() < 1e-6);
+        let suspension = two_classes("suspension", [1e-4; 2], [2450.0, 1500.0], "di_felice");
+        let found = |name| 1e3 * value(name, &suspension).unwrap();
+        assert!((found("zero_net_flux_front_1") - 5.107).abs() < 1e-3);
+        assert!((found("zero_net_flux_front_2") - 2.10).abs() < 5e-3);
+        assert!((found("zero_net_flux_speed_2") - 1.384).abs() < 1e-3);
+        let message = |name, settings: &Value| value(name, settings).unwrap_err().0;
+        assert!(message("zero_net_flux_front_3", &suspension).contains("it has 2"));
+        assert!(message("zero_net_flux_front_1", &block).contains("suspension"));
+        assert!(message("force_balance", &suspension).contains("2 classes"));
+        assert!(message("kynch_bed_front", &suspension).contains("2 classes"));
+    }
+
     #[test]
     fn the_start_up_curve_ends_at_the_terminal_velocity() {
         let settings = sphere("stokes");
