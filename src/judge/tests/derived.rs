@@ -52,6 +52,7 @@ fn slope(of: &str, line: Segment) -> Derived {
     let of = of.to_string();
     made(
         Derivation::Slope {
+            over: None,
             of,
             line,
             falling: true,
