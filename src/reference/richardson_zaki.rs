@@ -112,7 +112,8 @@ mod tests {
 
     #[test]
     fn slow_and_fast_limits() {
-        let limits: [(fn(f64) -> f64, f64, f64); 4] = [
+        type Correlation = fn(f64) -> f64;
+        let limits: [(Correlation, f64, f64); 4] = [
             (wallis, 4.7, 4.7 * 0.15 / 0.253),
             (garside_al_dibouni, 5.1, 2.7),
             (rowe, 4.7, 2.35),
