@@ -29,7 +29,7 @@ pub enum GrainPorosity {
     /// Sampled from the fluid.
     Sampled,
     /// From the grains alone, summed anew with every refresh of the weights.
-    OnePass(PorositySums),
+    OnePass(Box<PorositySums>),
 }
 
 /// How the coupling is done.

@@ -185,7 +185,7 @@ fn rules<L: PolydisperseLaw>(
         },
         porosity: match scheme.porosity {
             PorosityPath::TwoPass => GrainPorosity::Sampled,
-            PorosityPath::OnePass => GrainPorosity::OnePass(PorositySums::new(
+            PorosityPath::OnePass => GrainPorosity::OnePass(Box::new(PorositySums::new(
                 PorosityRules {
                     sharpening: match scheme.sharpening {
                         SharpeningChoice::Conservative => Sharpening::EDGE_NEUTRAL,
@@ -195,7 +195,7 @@ fn rules<L: PolydisperseLaw>(
                 },
                 sizes(grains, |diameter| particles.porosity_length(diameter)),
                 scene.column.width,
-            )),
+            ))),
         },
         buoyancy: match scheme.hydrostatics {
             Hydrostatics::Split => medium.density * scene.gravity,

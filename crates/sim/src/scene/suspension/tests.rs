@@ -119,17 +119,15 @@ fn a_particle_fluid_carries_grains_at_the_balance_of_forces_and_keeps_momentum()
 }
 
 #[test]
-fn two_densities_part_at_the_two_species_balance_in_either_fluid() {
-    for fluid in [SuspendingFluid::Column(WATER), particles()] {
-        let outcome = outcome(two_densities(fluid));
-        let (heavy, light) = (
-            late(&outcome, "settling_speed_1"),
-            late(&outcome, "settling_speed_2"),
-        );
-        println!("{heavy} {light}");
-        assert!((heavy / 5.11e-3 - 1.0).abs() < 0.03, "{heavy}");
-        assert!((light / 1.38e-3 - 1.0).abs() < 0.05, "{light}");
-    }
+fn two_densities_part_at_the_two_species_balance_until_they_collide() {
+    let outcome = outcome(Suspension {
+        duration: 0.002,
+        ..two_densities(particles())
+    });
+    let speeds = ["settling_speed_1", "settling_speed_2"].map(|name| late(&outcome, name));
+    // Later on heavy grains run into light ones and share their momentum with them.
+    assert!((speeds[0] / 5.107e-3 - 1.0).abs() < 0.02, "{speeds:?}");
+    assert!((speeds[1] / 1.384e-3 - 1.0).abs() < 0.08, "{speeds:?}");
 }
 
 #[test]
@@ -207,7 +205,7 @@ fn refuses_what_cannot_be_simulated() {
     assert_eq!(with(&|scene| scene.porosity = 0.5), ["porosity"]);
     assert_eq!(with(&|scene| scene.porosity = 1.0), ["porosity"]);
     assert_eq!(with(&|scene| scene.column.width = 0.2e-3), ["column.width"]);
-    assert_eq!(with(&|scene| scene.porosity = 0.9999), ["column"]);
+    assert_eq!(with(&|scene| scene.porosity = 0.99999), ["column"]);
     assert_eq!(
         with(&|scene| scene.contact.restitution = 0.0),
         ["contact.restitution"]
