@@ -93,7 +93,6 @@ pub(super) fn thickness_solution() -> Solution {
 mod tests {
     use serde_json::json;
 
-    use super::*;
     use crate::reference::filter::tests::{filter, settings};
     use crate::reference::{Facts, scalar, series};
 

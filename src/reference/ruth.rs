@@ -18,6 +18,7 @@ use super::settings::Case;
 use super::{Entry, Kind, ReferenceError, Solution};
 
 const THICKNESS: &str = "ruth_thickness";
+const GROWTH: &str = "ruth_growth";
 const LINE: &str = "ruth_line";
 const SLOPE: &str = "ruth_slope";
 const INTERCEPT: &str = "ruth_intercept";
@@ -81,6 +82,22 @@ fn slope(case: &Case) -> Result<f64, ReferenceError> {
 
 fn intercept(case: &Case) -> Result<f64, ReferenceError> {
     Ok(Cake::of(INTERCEPT, case)?.intercept())
+}
+
+fn growth(case: &Case) -> Result<f64, ReferenceError> {
+    Ok(Cake::of(GROWTH, case)?.thickness)
+}
+
+pub(super) fn growth_solution() -> Solution {
+    Solution {
+        entry: Entry {
+            name: GROWTH,
+            meaning: "thickness of the cake per filtrate volume and area, from its measured porosity",
+            source: SOURCE,
+        },
+        unit: "1",
+        kind: Kind::Scalar(growth),
+    }
 }
 
 /// t/V [s/m] at volumes V [m].
@@ -235,6 +252,7 @@ mod tests {
         };
         let grown = series("ruth_thickness", &facts, &[0.1, 0.2, 1.2]).unwrap().values;
         assert_eq!(grown[..2], [0.0, 0.0]);
+        assert!((grown[2] / volume(1.0, drive, medium, cake) / value("ruth_growth") - 1.0).abs() < 1e-6);
         let solids = grown[2] * (1.0 - POROSITY);
         let filtrate = volume(1.0, drive, medium, cake);
         // What has come with the filtrate, and what the front has met on its way.

@@ -53,6 +53,7 @@ fn slope(of: &str, line: Segment) -> Derived {
     made(
         Derivation::Slope {
             of,
+            over: None,
             line,
             falling: true,
         },
