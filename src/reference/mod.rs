@@ -110,6 +110,8 @@ fn solutions() -> Vec<Solution> {
         darcy_in_series::flux_solution(),
         darcy_in_series::pressure_solution(),
         ruth::line_solution(),
+        ruth::thickness_solution(),
+        ruth::growth_solution(),
         ruth::slope_solution(),
         ruth::intercept_solution(),
         rehearsal::limit(),

@@ -17,6 +17,8 @@ use super::kozeny_carman::specific_resistance;
 use super::settings::Case;
 use super::{Entry, Kind, ReferenceError, Solution};
 
+const THICKNESS: &str = "ruth_thickness";
+const GROWTH: &str = "ruth_growth";
 const LINE: &str = "ruth_line";
 const SLOPE: &str = "ruth_slope";
 const INTERCEPT: &str = "ruth_intercept";
@@ -33,35 +35,101 @@ pub fn volume(time: f64, drive: f64, medium: f64, cake: f64) -> f64 {
     2.0 * drive * time / (medium + (medium * medium + 2.0 * cake * drive * time).sqrt())
 }
 
-/// αc [1/m²] of the run's own cake, and ΔP/μ [1/s].
-fn resistance(name: &str, case: &Case) -> Result<(f64, f64, Filter), ReferenceError> {
-    let filter = Filter::of(name, case)?;
-    let drawn = filter.drawn(name)?;
-    let Drive::Pressure(drop) = filter.drive else {
-        return Err(ReferenceError(format!("`{name}` holds for a constant pressure")));
-    };
-    let (porosity, density) = (filter.porosity(case)?, filter.grain.density);
-    let suspended = filter.suspended(drawn * filter.first_flux);
-    let alpha = specific_resistance(porosity, filter.sauter_diameter(), density);
-    let cake = alpha * solids_per_filtrate(density, porosity, drawn, suspended);
-    Ok((cake, drop / filter.grain.viscosity, filter))
+/// A filtration with the porosity of its own cake.
+struct Cake {
+    /// αc [1/m²]
+    resistance: f64,
+    /// R_m [1/m]
+    medium: f64,
+    /// ΔP/μ [1/s]
+    drive: f64,
+    /// Thickness per filtrate, c/(ρ_s (1 − ε)) [-].
+    thickness: f64,
+}
+
+impl Cake {
+    fn of(name: &str, case: &Case) -> Result<Cake, ReferenceError> {
+        let filter = Filter::of(name, case)?;
+        let drawn = filter.drawn(name)?;
+        let Drive::Pressure(drop) = filter.drive else {
+            return Err(ReferenceError(format!("`{name}` holds for a constant pressure")));
+        };
+        let (porosity, density) = (filter.porosity(case)?, filter.grain.density);
+        let suspended = filter.suspended(drawn * filter.first_flux);
+        let solids = solids_per_filtrate(density, porosity, drawn, suspended);
+        Ok(Cake {
+            resistance: specific_resistance(porosity, filter.sauter_diameter(), density) * solids,
+            medium: filter.medium_resistance,
+            drive: drop / filter.grain.viscosity,
+            thickness: solids / density / (1.0 - porosity),
+        })
+    }
+
+    /// [s/m²]
+    fn slope(&self) -> f64 {
+        self.resistance / (2.0 * self.drive)
+    }
+
+    /// [s/m]
+    fn intercept(&self) -> f64 {
+        self.medium / self.drive
+    }
 }
 
 fn slope(case: &Case) -> Result<f64, ReferenceError> {
-    let (cake, drive, _) = resistance(SLOPE, case)?;
-    Ok(cake / (2.0 * drive))
+    Ok(Cake::of(SLOPE, case)?.slope())
 }
 
 fn intercept(case: &Case) -> Result<f64, ReferenceError> {
-    let (_, drive, filter) = resistance(INTERCEPT, case)?;
-    Ok(filter.medium_resistance / drive)
+    Ok(Cake::of(INTERCEPT, case)?.intercept())
+}
+
+fn growth(case: &Case) -> Result<f64, ReferenceError> {
+    Ok(Cake::of(GROWTH, case)?.thickness)
+}
+
+pub(super) fn growth_solution() -> Solution {
+    Solution {
+        entry: Entry {
+            name: GROWTH,
+            meaning: "thickness of the cake per filtrate volume and area, from its measured porosity",
+            source: SOURCE,
+        },
+        unit: "1",
+        kind: Kind::Scalar(growth),
+    }
 }
 
 /// t/V [s/m] at volumes V [m].
 fn line(case: &Case, volumes: &[f64]) -> Result<Vec<f64>, ReferenceError> {
-    let (cake, drive, filter) = resistance(LINE, case)?;
-    let at = |volume: &f64| (filter.medium_resistance + 0.5 * cake * volume) / drive;
-    Ok(volumes.iter().map(at).collect())
+    let cake = Cake::of(LINE, case)?;
+    Ok(volumes
+        .iter()
+        .map(|volume| cake.intercept() + cake.slope() * volume)
+        .collect())
+}
+
+/// L [m] at times [s], nothing before the first deposit.
+fn thickness(case: &Case, times: &[f64]) -> Result<Vec<f64>, ReferenceError> {
+    let cake = Cake::of(THICKNESS, case)?;
+    let first = case.measured("first_deposit_time")?;
+    let at = |time: &f64| {
+        let since = (time - first).max(0.0);
+        cake.thickness * volume(since, cake.drive, cake.medium, cake.resistance)
+    };
+    Ok(times.iter().map(at).collect())
+}
+
+pub(super) fn thickness_solution() -> Solution {
+    Solution {
+        entry: Entry {
+            name: THICKNESS,
+            meaning: "thickness over time of the cake of a suspension at constant pressure, from its measured porosity",
+            source: SOURCE,
+        },
+        unit: "m",
+        kind: Kind::Series(thickness),
+    }
 }
 
 pub(super) fn line_solution() -> Solution {
@@ -108,7 +176,7 @@ mod tests {
     use crate::reference::filter::tests::settings;
     use crate::reference::kozeny_carman::kozeny_carman;
     use crate::reference::library::Library;
-    use crate::reference::{Facts, cake_growth, darcy_in_series, scalar};
+    use crate::reference::{Facts, cake_growth, darcy_in_series, scalar, series};
 
     const POROSITY: f64 = 0.39;
     const DIAMETER: f64 = 150e-6;
@@ -174,6 +242,21 @@ mod tests {
             let line = value("ruth_slope") * volume + value("ruth_intercept");
             assert!((line * volume / time - 1.0).abs() < 1e-6, "{time}");
         }
+        let facts = Facts {
+            scalars: &|name| match name {
+                "porosity" => Some(POROSITY),
+                "first_deposit_time" => Some(0.2),
+                _ => None,
+            },
+            ..facts
+        };
+        let grown = series("ruth_thickness", &facts, &[0.1, 0.2, 1.2]).unwrap().values;
+        assert_eq!(grown[..2], [0.0, 0.0]);
+        assert!((grown[2] / volume(1.0, drive, medium, cake) / value("ruth_growth") - 1.0).abs() < 1e-6);
+        let solids = grown[2] * (1.0 - POROSITY);
+        let filtrate = volume(1.0, drive, medium, cake);
+        // What has come with the filtrate, and what the front has met on its way.
+        assert!((solids / (DRAWN * (filtrate + grown[2])) - 1.0).abs() < 1e-6);
         // Grains that settle besides are fewer in the suspension, and the cake grows less per filtrate.
         let without = value("ruth_slope");
         let settling = settings(

@@ -96,6 +96,8 @@ const SOLUTIONS: &[(&str, ObservableKind)] = &[
     ("darcy_flux", Scalar),
     ("darcy_pressure_drop", Scalar),
     ("ruth_line", Series),
+    ("ruth_thickness", Series),
+    ("ruth_growth", Scalar),
     ("ruth_slope", Scalar),
     ("ruth_intercept", Scalar),
     ("known_limit", Scalar),

@@ -54,6 +54,7 @@ fn slope(of: &str, line: Segment) -> Derived {
         Derivation::Slope {
             over: None,
             of,
+            over: None,
             line,
             falling: true,
         },
