@@ -2,6 +2,7 @@
 
 use super::super::{Material, lines};
 use super::{Curve, Question};
+use crate::judge::statistics::Sample;
 use crate::reference::{self, library::Library};
 use crate::report::theme::{self, Style};
 use crate::report::{ReportError, format};
@@ -81,10 +82,15 @@ fn solutions(material: &Material, of: &str, name: &str, curves: &[Curve]) -> Res
         let mut points = Vec::new();
         let mut source = String::new();
         for (at, _, replicates) in &curve.points {
-            let error = (material.numbers.error)(replicates.first(), of, name).map_err(ReportError)?;
-            let none = || ReportError(format!("the reference `{name}` has no value here"));
-            points.push((*at, error.expected.ok_or_else(none)?));
-            source = error.source;
+            // A solution may know what each run has measured.
+            let mut expected = Vec::new();
+            for run in &replicates.runs {
+                let error = (material.numbers.error)(run, of, name).map_err(ReportError)?;
+                let none = || ReportError(format!("the reference `{name}` has no value here"));
+                expected.push(error.expected.ok_or_else(none)?);
+                source = error.source;
+            }
+            points.push((*at, Sample::of(expected).mean));
         }
         if !found.iter().any(|other| other.points == points) {
             found.push(Other {
