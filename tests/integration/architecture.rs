@@ -30,14 +30,15 @@ const HARNESS: [Allowed; 8] = [
 ];
 
 /// From the ground up; rooms on one level do not import each other.
-const SIMULATOR_LEVELS: [&[&str]; 10] = [
+const SIMULATOR_LEVELS: [&[&str]; 11] = [
     &["outcome", "math"],
     &["state"],
-    &["neighbours", "arrangement"],
+    &["neighbours"],
     &["contact", "cohesion", "drag", "fluid"],
     &["coupling"],
-    &["integrator"],
-    &["simulation", "bed"],
+    &["integrator", "arrangement"],
+    &["bed"],
+    &["simulation"],
     &["observable"],
     &["scene"],
     &["lib"],

@@ -7,7 +7,7 @@ use crate::arrangement::Fault;
 use crate::bed::Bed;
 use crate::coupling::{Breathing, Exchange, ExchangeRules, GrainSize, PorosityRules, PorositySums};
 use crate::drag::PolydisperseLaw;
-use crate::fluid::FluidParticles;
+use crate::fluid::{Continuity, FluidParticles};
 use crate::fluid::kernel::Sharpening;
 use crate::math::Vec3;
 use crate::outcome::{Counters, Scalar};
@@ -115,12 +115,16 @@ fn fluid_weight(particles: &Particles) -> f64 {
 }
 
 fn still_fluid(particles: &Particles) -> FluidParticles {
-    let numerics = numerics(
+    let mut numerics = numerics(
         particles.sph,
         particles.spacing(),
         particles.sound_speed(),
         fluid_weight(particles),
     );
+    if particles.sph.scheme.porosity == PorosityPath::OnePass {
+        // Which slip the drag law is given changes no balance of the fluid.
+        numerics.continuity = Continuity::MixtureFlux;
+    }
     let column = &particles.scene.column;
     FluidParticles::lattice(numerics, column.width, column.height)
 }
