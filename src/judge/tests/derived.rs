@@ -52,7 +52,6 @@ fn slope(of: &str, line: Segment) -> Derived {
     let of = of.to_string();
     made(
         Derivation::Slope {
-            over: None,
             of,
             over: None,
             line,
