@@ -2,7 +2,7 @@
 
 use crate::contact::Body;
 use crate::coupling::slices::{Measure, Slices};
-use crate::drag;
+use crate::drag::{self, DragLaw};
 use crate::math::Vec3;
 
 use super::grains::Grains;
@@ -10,8 +10,11 @@ use super::motion::Surroundings;
 
 /// Way a grain may go before porosities are summed anew, in slices.
 const WAY: f64 = 0.01;
-/// Time after which the return flow is summed anew, over the time in which drag stops a grain.
+/// Time after which the return flow is summed anew, over the time in which drag stops a grain alone.
 const TIME: f64 = 0.02;
+/// The same over the time in which it does so in the densest slice. There the fluid flows back faster than the
+/// grains come: a flow kept for longer than they need to follow it would throw them to and fro.
+const DENSE_TIME: f64 = 0.25;
 
 /// Horizontal slices over all moving grains.
 #[derive(Clone, Debug)]
@@ -24,8 +27,10 @@ pub struct Porosity {
     mixed: bool,
     /// Volume flux q [m/s] that leaves through the floor.
     drawn: f64,
-    /// Time in which drag stops the lightest grain [s].
+    /// Time in which drag stops the lightest grain alone [s].
     relaxation: f64,
+    /// Time for which a return flow may be kept [s].
+    patience: f64,
     way: f64,
     time: f64,
     sums: Vec<f64>,
@@ -42,6 +47,7 @@ impl Porosity {
             mixed,
             drawn: 0.0,
             relaxation,
+            patience: 0.0,
             way: f64::INFINITY,
             time: f64::INFINITY,
             sums: Vec::new(),
@@ -71,10 +77,19 @@ impl Porosity {
     pub fn follow(&mut self, grains: &mut Grains, surroundings: &Surroundings, way: f64, time: f64) {
         self.way += way;
         self.time += time;
-        let flows = (self.closed || self.mixed) && self.time > TIME * self.relaxation;
+        let flows = (self.closed || self.mixed) && self.time > self.patience;
         if self.way > WAY * self.height || flows {
             self.refresh(grains, surroundings);
         }
+    }
+
+    /// Time for which a return flow may be kept [s].
+    fn patience(&self, surroundings: &Surroundings) -> f64 {
+        let densest = self.slices.porosity().iter().copied().fold(1.0, f64::min);
+        let hindrance = surroundings
+            .drag
+            .map_or(1.0, |law| law.factor(0.0, densest).max(1.0));
+        self.relaxation * TIME.min(DENSE_TIME / hindrance)
     }
 
     /// Says what the grains see now.
@@ -85,6 +100,7 @@ impl Porosity {
         let records = &grains.motion[..moving];
         self.slices
             .place(records.iter().map(|record| (record.0[2], record.0[3])));
+        self.patience = self.patience(surroundings);
         let slices = &self.slices;
         for (grain, spin) in grains.spin[..moving].iter_mut().enumerate() {
             spin.0[4] = slices.sample(grain, slices.porosity());
