@@ -182,6 +182,21 @@ fn the_worst_point_decides_an_error() {
 }
 
 #[test]
+fn a_name_of_a_series_and_its_last_value_is_compared_as_the_reference_is() {
+    let mut run = rehearse("scene", 1.0, 0.01);
+    let series = point_error(&run, "value", "known_series", Norm::Maximum).unwrap();
+    run.scalars.push(Scalar {
+        name: "value".to_string(),
+        unit: "m/s".to_string(),
+        value: 0.5 * LIMIT,
+    });
+    let beside_a_curve = point_error(&run, "value", "known_series", Norm::Maximum).unwrap();
+    assert_eq!(beside_a_curve, series);
+    let beside_a_value = point_error(&run, "value", "known_limit", Norm::Maximum).unwrap();
+    assert_eq!(beside_a_value.error, 0.5);
+}
+
+#[test]
 fn a_series_is_judged_by_its_largest_deviation() {
     let run = rehearse("a", 1.0, 0.01);
     let error = point_error(&run, "value", "known_series", Norm::Maximum).unwrap();

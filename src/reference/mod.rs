@@ -175,6 +175,14 @@ pub fn points(name: &str, facts: &Facts) -> Result<Option<Points>, ReferenceErro
     }
 }
 
+/// Whether a name is that of a curve, with which only a series can be compared.
+pub fn is_curve(name: &str) -> bool {
+    match data::find(name) {
+        Ok(Some(named)) => named.is_curve(),
+        _ => find(name).is_ok_and(|solution| matches!(solution.kind, Kind::Series(_))),
+    }
+}
+
 /// Whether a name is that of published data, not of a solution.
 pub fn is_published(name: &str) -> bool {
     matches!(data::find(name), Ok(Some(_)))

@@ -2,6 +2,7 @@
 
 mod check;
 mod collision;
+mod course;
 mod describe;
 mod divergence;
 mod filtration;

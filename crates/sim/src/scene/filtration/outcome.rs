@@ -3,7 +3,8 @@
 use super::cake::layers;
 use super::series::{begun, series, surface_shear};
 use super::watch::{Row, Watch};
-use crate::outcome::{Column, Counters, Outcome, Scalar, Table};
+use crate::outcome::{Column, Outcome, Scalar, Table};
+use crate::scene::course::work_of;
 use crate::scene::sedimentation::growth::Growth;
 use crate::scene::sedimentation::observe::{porosity_interior, profile, whole_area_porosity};
 use crate::scene::{Dimensions, Floor, Sides};
@@ -31,19 +32,10 @@ pub fn outcome(watch: &Watch, snapshots: impl Fn(&[u16]) -> Option<Table>) -> Ou
     tables.extend(snapshots(
         settled.map_or(&[][..], |settled| settled.contacts.as_slice()),
     ));
-    let work = &bed.work;
     Outcome {
         scalars: scalars(watch),
         tables,
-        counters: Counters {
-            steps: work.steps,
-            grain_steps: work.steps,
-            grain_pairs: work.pairs,
-            searched_pairs: work.looked_at,
-            list_rebuilds: work.lists,
-            porosity_clips: bed.porosity.as_ref().map_or(0, |porosity| porosity.clips()),
-            ..Counters::default()
-        },
+        counters: work_of(bed),
     }
 }
 

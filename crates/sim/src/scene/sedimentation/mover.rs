@@ -1,8 +1,7 @@
-//! Beds under the scheme a scene names, and how their runs end early.
+//! Beds under the scheme a scene names.
 
 use crate::bed::{Astray, Bed, Scheme};
 use crate::integrator::{Gear, RungeKutta4};
-use crate::outcome::{Failure, FailureKind, Outcome};
 use crate::scene::IntegratorChoice;
 
 /// The bed's own steps, or those of a general scheme.
@@ -33,12 +32,4 @@ impl Mover {
             Mover::RungeKutta4(scheme) => scheme.advance(bed, steps),
         }
     }
-}
-
-pub fn failed(kind: FailureKind, reason: String, partial: Outcome) -> Box<Failure> {
-    Box::new(Failure {
-        kind,
-        reason,
-        partial,
-    })
 }

@@ -4,20 +4,19 @@ use std::f64::consts::PI;
 
 use super::growth::Growth;
 use super::model::{Dimensions, Floor, Sedimentation, Sides, Until};
-use super::mover::{Mover, failed};
+use super::mover::Mover;
 use super::observe::{Measures, Settled, porosity_interior, profile, whole_area_porosity};
 use super::start::start;
 use super::step::limits;
 use crate::bed::Bed;
 use crate::math::Vec3;
-use crate::outcome::{Column, Control, Counters, Failure, FailureKind, Outcome, Scalar, Table};
+use crate::outcome::{Column, Control, Failure, Outcome, Scalar, Table};
+use crate::scene::course::{Recorded, follow, without_room, work_of};
 use crate::scene::divergence::{Signs, diverged, leapt};
 use crate::scene::snapshots::Snapshots;
 
-/// Rows of the time series in a second of simulated time, at least and at most in a run.
-const ROWS: [f64; 2] = [100.0, 1000.0];
-/// Time between two rows [s] where the duration allows for it.
-const ROW: f64 = 5e-3;
+/// Rows of the time series at most.
+const MOST_ROWS: f64 = 1000.0;
 /// Rows over which a settled grain has not moved.
 const WINDOW: usize = 2;
 /// Drag relaxation times after which grains fall at their first speed.
@@ -28,53 +27,54 @@ const START_UP: f64 = 6.0;
 /// # Errors
 /// Grains without room, overlaps beyond 5 % of a diameter, a grain that leaps, or a stop from outside.
 pub fn run(scene: &Sedimentation, control: &Control) -> Result<Outcome, Box<Failure>> {
-    let bed = match start(scene) {
-        Ok(bed) => bed,
-        Err(fault) => {
-            let reason = format!("the grains do not find room: {fault}; {}", fault.help());
-            return Err(failed(FailureKind::Diverged, reason, Outcome::default()));
-        }
-    };
+    let bed = start(scene).map_err(|fault| without_room(&fault))?;
     let limits = limits(scene);
     let dt = limits.time_step;
     let steps = (scene.duration / dt).ceil().max(1.0) as u64;
-    // No row without a step since the last one.
-    let rows = (scene.duration / ROW)
-        .ceil()
-        .clamp(ROWS[0], ROWS[1])
-        .min(steps as f64);
     let mut watch = Watch::new(scene, bed, limits.contact_time, dt);
-    watch.look(0);
-    let mut motion = Mover::start(scene.integrator, &mut watch.bed);
-    let mut done = 0;
-    for row in 1..=rows as u64 {
-        let target = (row as f64 / rows * steps as f64).round() as u64;
-        while done < target {
-            // Often enough to be stopped within a moment, in any bed.
-            let batch = (target - done).min(watch.patience());
-            if let Err(astray) = motion.advance(&mut watch.bed, batch) {
-                let reason = leapt(&astray, (done + batch) as f64 * dt);
-                return Err(failed(FailureKind::Diverged, reason, watch.outcome()));
-            }
-            done += batch;
-            if (control.stop)() {
-                return Err(failed(
-                    FailureKind::Stopped,
-                    "stopped from outside".into(),
-                    watch.outcome(),
-                ));
-            }
-        }
-        watch.look(done);
-        if let Some(reason) = watch.diverged() {
-            return Err(failed(FailureKind::Diverged, reason, watch.outcome()));
-        }
-        (control.progress)(row as f64 / rows);
-        if scene.until == Until::Settled && watch.all_settled() {
-            break;
-        }
+    let motion = Mover::start(scene.integrator, &mut watch.bed);
+    follow(
+        Running { watch, motion },
+        scene.duration,
+        steps,
+        MOST_ROWS,
+        control,
+    )
+}
+
+/// A bed in motion.
+struct Running<'a> {
+    watch: Watch<'a>,
+    motion: Mover,
+}
+
+impl Recorded for Running<'_> {
+    // Often enough to be stopped within a moment, in any bed.
+    fn patience(&self) -> u64 {
+        (2_000_000 / (self.watch.bed.grains.len() as u64 + 1)).clamp(1, 1000)
     }
-    Ok(watch.outcome())
+
+    fn advance(&mut self, done: u64, steps: u64) -> Result<(), String> {
+        let time = (done + steps) as f64 * self.watch.dt;
+        let moved = self.motion.advance(&mut self.watch.bed, steps);
+        moved.map_err(|astray| leapt(&astray, time))
+    }
+
+    fn look(&mut self, done: u64) {
+        self.watch.look(done);
+    }
+
+    fn diverged(&self) -> Option<String> {
+        self.watch.diverged()
+    }
+
+    fn is_over(&self) -> bool {
+        self.watch.scene.until == Until::Settled && self.watch.all_settled()
+    }
+
+    fn outcome(&mut self) -> Outcome {
+        self.watch.outcome()
+    }
 }
 
 /// The run as it is recorded.
@@ -115,11 +115,6 @@ impl<'a> Watch<'a> {
             deepest: 0.0,
             snapshots: Snapshots::new(scene.snapshots, scene.duration),
         }
-    }
-
-    /// Steps between two questions whether to stop.
-    fn patience(&self) -> u64 {
-        (2_000_000 / (self.bed.grains.len() as u64 + 1)).clamp(1, 1000)
     }
 
     fn look(&mut self, done: u64) {
@@ -230,19 +225,10 @@ impl<'a> Watch<'a> {
             .as_ref()
             .map_or(&[][..], |settled| settled.contacts.as_slice());
         tables.extend(self.snapshots.table(&self.bed, contacts, time, |number| number));
-        let work = &self.bed.work;
         Outcome {
             scalars: self.scalars(),
             tables,
-            counters: Counters {
-                steps: work.steps,
-                grain_steps: work.steps,
-                grain_pairs: work.pairs,
-                searched_pairs: work.looked_at,
-                list_rebuilds: work.lists,
-                porosity_clips: self.bed.porosity.as_ref().map_or(0, |porosity| porosity.clips()),
-                ..Counters::default()
-            },
+            counters: work_of(&self.bed),
         }
     }
 

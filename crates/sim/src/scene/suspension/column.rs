@@ -5,6 +5,7 @@ use super::run::Settling;
 use crate::arrangement::Fault;
 use crate::bed::Bed;
 use crate::outcome::{Counters, Scalar};
+use crate::scene::course::work_of;
 use crate::scene::divergence::leapt;
 use crate::scene::sedimentation::{limits, start};
 
@@ -61,16 +62,7 @@ impl Settling for InColumn {
     }
 
     fn counters(&self) -> Counters {
-        let work = &self.bed.work;
-        Counters {
-            steps: work.steps,
-            grain_steps: work.steps,
-            grain_pairs: work.pairs,
-            searched_pairs: work.looked_at,
-            list_rebuilds: work.lists,
-            porosity_clips: self.bed.porosity.as_ref().map_or(0, |porosity| porosity.clips()),
-            ..Counters::default()
-        }
+        work_of(&self.bed)
     }
 
     fn momentum_gap(&self) -> f64 {

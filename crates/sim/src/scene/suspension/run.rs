@@ -5,15 +5,12 @@ use super::model::{SuspendingFluid, Suspension};
 use super::sph::InParticles;
 use super::watch::Watch;
 use crate::bed::Bed;
-use crate::outcome::{Control, Counters, Failure, FailureKind, Outcome, Scalar};
-use crate::scene::divergence::{Signs, diverged};
-use crate::scene::sedimentation::mover::failed;
+use crate::outcome::{Control, Counters, Failure, Outcome, Scalar};
+use crate::scene::course::{follow, without_room};
 use crate::scene::setup::with_law;
 
-/// Rows of the time series, at least and at most in a run.
-const ROWS: [f64; 2] = [100.0, 400.0];
-/// Time between two rows [s] where the duration allows for it.
-const ROW: f64 = 5e-3;
+/// Rows of the time series at most.
+const MOST_ROWS: f64 = 400.0;
 
 /// Grains on their way through a fluid.
 pub trait Settling {
@@ -65,53 +62,10 @@ fn settle<S: Settling>(
     start: Result<S, crate::arrangement::Fault>,
     control: &Control,
 ) -> Result<Outcome, Box<Failure>> {
-    let settling = start.map_err(|fault| {
-        let reason = format!("the grains do not find room: {fault}; {}", fault.help());
-        failed(FailureKind::Diverged, reason, Outcome::default())
-    })?;
-    let dt = settling.time_step();
-    let steps = (scene.duration / dt * (1.0 - 1e-12)).ceil().max(1.0) as u64;
-    // No row without a step since the last one.
-    let rows = (scene.duration / ROW)
+    let settling = start.map_err(|fault| without_room(&fault))?;
+    let steps = (scene.duration / settling.time_step() * (1.0 - 1e-12))
         .ceil()
-        .clamp(ROWS[0], ROWS[1])
-        .min(steps as f64);
-    let mut watch = Watch::new(scene, settling);
-    watch.look(0);
-    let mut done = 0;
-    for row in 1..=rows as u64 {
-        let target = (row as f64 / rows * steps as f64).round() as u64;
-        while done < target {
-            let batch = (target - done).min(watch.settling.patience());
-            if let Err(reason) = watch.settling.advance(batch) {
-                return Err(failed(FailureKind::Diverged, reason, watch.outcome()));
-            }
-            done += batch;
-            if (control.stop)() {
-                let reason = "stopped from outside".to_owned();
-                return Err(failed(FailureKind::Stopped, reason, watch.outcome()));
-            }
-        }
-        watch.look(done);
-        if let Some(reason) = watch.diverged() {
-            return Err(failed(FailureKind::Diverged, reason, watch.outcome()));
-        }
-        (control.progress)(row as f64 / rows);
-    }
-    Ok(watch.outcome())
-}
-
-impl<S: Settling> Watch<'_, S> {
-    /// Why the run makes no sense any more.
-    fn diverged(&self) -> Option<String> {
-        let last = self.rows.last()?;
-        // Nothing can move faster than the fall through the whole column makes it.
-        let signs = Signs {
-            time: last.time,
-            most: self.load * self.scene.column.height,
-            source: "the work of gravity",
-            deepest: last.deepest,
-        };
-        diverged(self.settling.bed(), &signs)
-    }
+        .max(1.0) as u64;
+    let watch = Watch::new(scene, settling);
+    follow(watch, scene.duration, steps, MOST_ROWS, control)
 }

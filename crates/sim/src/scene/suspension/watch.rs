@@ -5,6 +5,8 @@ use super::observe::{MOST_CLASSES, Measures};
 use super::profile::Deposit;
 use super::run::Settling;
 use crate::outcome::{Column, Outcome, Scalar, Table};
+use crate::scene::course::Recorded;
+use crate::scene::divergence::{Signs, diverged};
 use crate::scene::snapshots::Snapshots;
 
 pub struct Watch<'a, S> {
@@ -12,29 +14,22 @@ pub struct Watch<'a, S> {
     pub settling: S,
     pub rows: Vec<Measures>,
     /// Weight less buoyancy of all grains, each counted with its sign off [N].
-    pub load: f64,
+    load: f64,
     weight: f64,
     momentum_gap: f64,
     snapshots: Snapshots,
 }
 
-impl<'a, S: Settling> Watch<'a, S> {
-    pub fn new(scene: &'a Suspension, settling: S) -> Self {
-        let bed = settling.bed();
-        let mass: f64 = (0..bed.grains.moving).map(|grain| bed.grains.mass(grain)).sum();
-        Watch {
-            load: scene.as_sedimentation().load(),
-            weight: mass * scene.gravity,
-            snapshots: Snapshots::new(scene.snapshots, scene.duration),
-            scene,
-            settling,
-            rows: Vec::new(),
-            momentum_gap: 0.0,
-        }
+impl<S: Settling> Recorded for Watch<'_, S> {
+    fn patience(&self) -> u64 {
+        self.settling.patience()
     }
 
-    /// Takes a row after so many steps.
-    pub fn look(&mut self, done: u64) {
+    fn advance(&mut self, _: u64, steps: u64) -> Result<(), String> {
+        self.settling.advance(steps)
+    }
+
+    fn look(&mut self, done: u64) {
         let time = done as f64 * self.settling.time_step();
         let settling = &self.settling;
         let measures = Measures::of(self.scene, settling.bed(), time, |place| settling.slip(place));
@@ -50,7 +45,23 @@ impl<'a, S: Settling> Watch<'a, S> {
         self.settling.forget_deepest();
     }
 
-    pub fn outcome(&self) -> Outcome {
+    fn diverged(&self) -> Option<String> {
+        let last = self.rows.last()?;
+        // Nothing can move faster than the fall through the whole column makes it.
+        let signs = Signs {
+            time: last.time,
+            most: self.load * self.scene.column.height,
+            source: "the work of gravity",
+            deepest: last.deepest,
+        };
+        diverged(self.settling.bed(), &signs)
+    }
+
+    fn is_over(&self) -> bool {
+        false
+    }
+
+    fn outcome(&mut self) -> Outcome {
         let deposit = self.deposit();
         let bed = self.settling.bed();
         let mut tables = vec![self.time_series(&deposit), self.porosity_map()];
@@ -63,6 +74,22 @@ impl<'a, S: Settling> Watch<'a, S> {
             scalars: self.scalars(&deposit),
             tables,
             counters: self.settling.counters(),
+        }
+    }
+}
+
+impl<'a, S: Settling> Watch<'a, S> {
+    pub fn new(scene: &'a Suspension, settling: S) -> Self {
+        let bed = settling.bed();
+        let mass: f64 = (0..bed.grains.moving).map(|grain| bed.grains.mass(grain)).sum();
+        Watch {
+            load: scene.as_sedimentation().load(),
+            weight: mass * scene.gravity,
+            snapshots: Snapshots::new(scene.snapshots, scene.duration),
+            scene,
+            settling,
+            rows: Vec::new(),
+            momentum_gap: 0.0,
         }
     }
 
