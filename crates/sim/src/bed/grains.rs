@@ -1,7 +1,7 @@
 //! The state of all grains.
 
 use crate::contact::Body;
-use crate::math::Vec3;
+use crate::math::{Vec3, along_curve};
 use crate::neighbours::{Period, Record};
 
 /// Grains in the order they are stored, near ones near each other; moving ones first, fixed ones last.
@@ -150,80 +150,36 @@ impl Grains {
     /// Stores the moving grains along a curve that keeps neighbours together: shared cache lines are
     /// worth a third of the time of a large bed. The order follows from the positions alone.
     pub(super) fn sort(&mut self) {
-        let mut low = [f64::INFINITY; 3];
         let (mut smallest, mut largest) = (f64::INFINITY, 0.0_f64);
         for record in &self.motion[..self.moving] {
-            (0..3).for_each(|axis| low[axis] = low[axis].min(record.0[axis]));
             (smallest, largest) = (smallest.min(record.0[3]), largest.max(record.0[3]));
         }
         // No sum over the grains: its rounding would depend on the order they come in.
         let width = smallest + largest;
-        let mut order: Vec<(u64, u32)> = (0..self.moving)
-            .map(|grain| {
-                let position = &self.motion[grain].0;
-                let cell = [0, 1, 2].map(|axis| ((position[axis] - low[axis]) / width) as u64);
-                (interleaved(cell), grain as u32)
-            })
-            .collect();
-        let place = |grain: u32| &self.motion[grain as usize].0;
-        order.sort_unstable_by(|a, b| {
-            let ties = || (0..3).map(|axis| place(a.1)[axis].total_cmp(&place(b.1)[axis]));
-            a.0.cmp(&b.0)
-                .then_with(|| ties().fold(std::cmp::Ordering::Equal, |all, axis| all.then(axis)))
-        });
-        if order
+        let places: Vec<[f64; 3]> = self.motion[..self.moving]
             .iter()
-            .enumerate()
-            .all(|(place, &(_, grain))| place == grain as usize)
-        {
+            .map(|record| [record.0[0], record.0[1], record.0[2]])
+            .collect();
+        let order = along_curve(&places, width);
+        if order.iter().zip(0..).all(|(grain, place)| *grain == place) {
             return;
         }
         let moving = self.moving;
         let arranged = |from: &mut Vec<Record>| {
-            let new: Vec<Record> = order.iter().map(|&(_, grain)| from[grain as usize]).collect();
+            let new: Vec<Record> = order.iter().map(|&grain| from[grain as usize]).collect();
             from[..moving].copy_from_slice(&new);
         };
         arranged(&mut self.motion);
         arranged(&mut self.spin);
         let number: Vec<u32> = order
             .iter()
-            .map(|&(_, grain)| self.number[grain as usize])
+            .map(|&grain| self.number[grain as usize])
             .collect();
         self.number[..moving].copy_from_slice(&number);
         let class: Vec<u16> = order
             .iter()
-            .map(|&(_, grain)| self.class[grain as usize])
+            .map(|&grain| self.class[grain as usize])
             .collect();
         self.class[..moving].copy_from_slice(&class);
-    }
-}
-
-/// Morton's order: the bits of three numbers in turn. Numbers beyond 2²¹ count as 2²¹.
-fn interleaved(cell: [u64; 3]) -> u64 {
-    let spread = |number: u64| {
-        let mut bits = number.min((1 << 21) - 1);
-        for (shift, mask) in [
-            (32, 0x001f_0000_0000_ffff),
-            (16, 0x001f_0000_ff00_00ff),
-            (8, 0x100f_00f0_0f00_f00f),
-            (4, 0x10c3_0c30_c30c_30c3),
-            (2, 0x1249_2492_4924_9249),
-        ] {
-            bits = (bits | bits << shift) & mask;
-        }
-        bits
-    };
-    spread(cell[0]) | spread(cell[1]) << 1 | spread(cell[2]) << 2
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn interleaving_keeps_every_bit() {
-        assert_eq!(interleaved([0b11, 0b00, 0b10]), 0b101_001);
-        assert_eq!(interleaved([0, 1 << 20, 0]), 1 << 61);
-        assert_eq!(interleaved([u64::MAX; 3]), (1 << 63) - 1);
     }
 }

@@ -14,10 +14,10 @@ mod twice;
 
 use std::f64::consts::PI;
 
-use super::Weights;
+use super::weights::{Sample, Spread, Weights};
 use crate::fluid::FluidParticles;
 use crate::fluid::kernel::Sharpening;
-use crate::math::{Number, Vec3};
+use crate::math::{Number, Vec3, along_curve};
 use crate::neighbours::{Record, Rows, images, in_widest};
 
 /// What a grain may sample from a fluid particle: a velocity [m/s], a force density [N/m³], the porosity
@@ -206,12 +206,13 @@ impl Exchange {
         self.diameters
     }
 
-    /// Recomputes weights and solids for grains at these places [m] with these velocities [m/s].
-    pub fn refresh(&mut self, fluid: &FluidParticles, position: &[Vec3], velocity: &[Vec3]) {
-        if self.outgrown(fluid, position) {
+    /// Recomputes weights and solids for grains at these places [m] with these velocities [m/s], and for the
+    /// fluid where it will be `ahead` [s] from now.
+    pub fn refresh(&mut self, fluid: &FluidParticles, ahead: f64, position: &[Vec3], velocity: &[Vec3]) {
+        if self.outgrown(fluid, ahead, position) {
             self.collect(fluid, position);
         }
-        self.write_points(fluid);
+        self.write_points(fluid, ahead);
         self.weights.clear(self.candidates.len_padded());
         self.sums.clear();
         self.sums.resize(fluid.len(), Record::default());
@@ -232,12 +233,12 @@ impl Exchange {
         self.pairs += self.weights.members() as u64;
     }
 
-    fn write_points(&mut self, fluid: &FluidParticles) {
+    fn write_points(&mut self, fluid: &FluidParticles, ahead: f64) {
         self.points.clear();
         for &(source, shift) in &self.origins {
             let a = source as usize;
-            let x = unwrapped(&fluid.position[a], &self.fluid_anchor[a], fluid.width) + shift;
             let u = &fluid.velocity[a];
+            let x = unwrapped(&fluid.position[a], &self.fluid_anchor[a], fluid.width) + shift + u * ahead;
             self.points
                 .push(Record([x.x, x.y, x.z, u.x, u.y, u.z, fluid.volume(a), 0.0]));
         }
@@ -251,15 +252,15 @@ impl Exchange {
         SKIN * 2.0 * widest
     }
 
-    fn outgrown(&self, fluid: &FluidParticles, position: &[Vec3]) -> bool {
-        let furthest = |now: &[Vec3], anchor: &[Vec3]| {
-            now.iter()
-                .zip(anchor)
-                .map(|(x, x0)| (unwrapped(x, x0, fluid.width) - x0).norm_squared())
-                .fold(0.0, f64::max)
-                .sqrt()
+    fn outgrown(&self, fluid: &FluidParticles, ahead: f64, position: &[Vec3]) -> bool {
+        let furthest = |ways: &mut dyn Iterator<Item = Vec3>| {
+            ways.map(|way| way.norm_squared()).fold(0.0, f64::max).sqrt()
         };
-        furthest(&fluid.position, &self.fluid_anchor) + furthest(position, &self.grain_anchor) >= self.skin()
+        let way = |x: &Vec3, anchor: &Vec3| unwrapped(x, anchor, fluid.width) - anchor;
+        let places = fluid.position.iter().zip(&fluid.velocity);
+        let mut flown = (places.zip(&self.fluid_anchor)).map(|((x, u), anchor)| way(x, anchor) + u * ahead);
+        let mut fallen = (position.iter().zip(&self.grain_anchor)).map(|(x, anchor)| way(x, anchor));
+        furthest(&mut flown) + furthest(&mut fallen) >= self.skin()
     }
 
     fn collect(&mut self, fluid: &FluidParticles, position: &[Vec3]) {
@@ -280,7 +281,8 @@ impl Exchange {
             .map(|(source, _)| *source)
             .chain([0])
             .collect();
-        self.order = cell_order(position, widest);
+        let places: Vec<[f64; 3]> = position.iter().map(|place| (*place).into()).collect();
+        self.order = along_curve(&places, widest);
         self.row_of = vec![0; position.len()];
         for (row, &i) in self.order.iter().enumerate() {
             self.row_of[i as usize] = row as u32;
@@ -296,28 +298,33 @@ impl Exchange {
         self.collect_second(fluid);
     }
 
-    /// All grains, cell by cell: visited in this order, neighbouring rows find their fluid particles in
-    /// the nearest cache.
-    pub fn order(&self) -> &[u32] {
-        &self.order
+    /// Weighted means of a field around every grain. Rows that follow each other share their fluid
+    /// particles, so that these are found in the nearest cache.
+    pub fn sample_all(&self, fields: &[Field], means: &mut Vec<Field>) {
+        means.resize(self.order.len(), Field::default());
+        in_widest(Sample {
+            weights: &self.weights,
+            fields,
+            order: &self.order,
+            means,
+        });
     }
 
-    /// Weighted mean of a field around a grain.
-    pub fn sample(&self, grain: usize, fields: &[Field]) -> Field {
-        self.weights.sample(self.row_of[grain] as usize, fields)
-    }
-
-    /// Adds four sums of a grain, such as an impulse [N s], to those of the fluid particles around it.
-    pub fn spread(&self, grain: usize, impulse: [f64; 4], impulses: &mut [[f64; 4]]) {
-        self.weights
-            .spread(self.row_of[grain] as usize, impulse, impulses);
+    /// Adds four numbers of every grain, such as an impulse [N s], to the sums of the fluid particles
+    /// around it, each with its share.
+    pub fn spread(&self, given: &[[f64; 4]], sums: &mut [[f64; 4]]) {
+        in_widest(Spread {
+            weights: &self.weights,
+            order: &self.order,
+            given,
+            sums,
+        });
     }
 
     /// Σ_a w_a²/V_a [1/m³]: how much of a force density it hands out a grain samples back.
     pub fn echo(&self, grain: usize, fluid: &FluidParticles) -> f64 {
-        let (sources, shares) = self.weights.row(self.row_of[grain] as usize);
-        (sources.iter().zip(shares))
-            .map(|(source, share)| share * share / fluid.volume(*source as usize))
+        let row = self.weights.row(self.row_of[grain] as usize);
+        row.map(|(source, share)| share * share / fluid.volume(source as usize))
             .sum()
     }
 }
@@ -331,19 +338,6 @@ pub(super) fn unwrapped(place: &Vec3, anchor: &Vec3, width: f64) -> Vec3 {
         place.y - whole(place.y - anchor.y),
         place.z,
     )
-}
-
-/// Indices of the grains in strips along x of the given width [m], each from end to end.
-fn cell_order(grains: &[Vec3], width: f64) -> Vec<u32> {
-    let mut order: Vec<u32> = (0..grains.len() as u32).collect();
-    let strip = |x: &Vec3| [(x.z / width).floor(), (x.y / width).floor(), x.x];
-    order.sort_by(|&i, &j| {
-        let (a, b) = (strip(&grains[i as usize]), strip(&grains[j as usize]));
-        (a.iter().zip(&b))
-            .map(|(a, b)| a.total_cmp(b))
-            .fold(std::cmp::Ordering::Equal, |order, next| order.then(next))
-    });
-    order
 }
 
 #[cfg(test)]

@@ -15,4 +15,3 @@ pub use exchange::{Exchange, ExchangeRules, Field, GrainSize, Solids};
 pub use grain_porosity::{Arrangement, PorosityRules, PorositySums, grain_porosity};
 pub use layers::Layers;
 pub use slices::Slices;
-pub use weights::Weights;

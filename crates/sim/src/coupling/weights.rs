@@ -1,19 +1,26 @@
 //! Sparse rows of weights between grains and fluid particles.
 //!
+//! Weights are kept in single precision with a norm in double precision beside each row: the rows are
+//! read twice a step and are larger than the caches. What a grain gives and what the fluid gets are the
+//! same products, so their balance closes to double precision all the same.
+//!
 //! Every sum runs over lanes that are kept apart until its end, so it gives the same bits on every
 //! instruction set.
 
 use super::Field;
+use crate::neighbours::{Wide, WideWork};
 
 /// Pairs of a row summed side by side.
 const ABREAST: usize = 4;
 
-/// For each grain the fluid particles around it and their shares, which sum to one.
+/// For each grain the fluid particles around it and their weights.
 #[derive(Default)]
 pub struct Weights {
     starts: Vec<u32>,
     sources: Vec<u32>,
-    shares: Vec<f64>,
+    weights: Vec<f32>,
+    /// What makes the weights of a row shares, which sum to one.
+    per_norm: Vec<f64>,
     /// Members of the row being written.
     open: usize,
 }
@@ -23,27 +30,29 @@ impl Weights {
     pub fn clear(&mut self, room: usize) {
         self.starts.clear();
         self.starts.push(0);
+        self.per_norm.clear();
         self.sources.resize(room, 0);
-        self.shares.resize(room, 0.0);
+        self.weights.resize(room, 0.0);
         self.open = 0;
     }
 
     /// Writes a member of the open row; it stays only when `inside`, without a branch on it.
     #[inline(always)]
-    pub fn offer(&mut self, source: u32, share: f64, inside: bool) {
+    pub fn offer(&mut self, source: u32, weight: f64, inside: bool) {
         self.sources[self.open] = source;
-        self.shares[self.open] = share;
+        self.weights[self.open] = weight as f32;
         self.open += inside as usize;
     }
 
-    /// Ends the open row whose shares sum to `norm`, and divides them by it.
+    /// Ends the open row.
     #[inline(always)]
-    pub fn close(&mut self, norm: f64) {
+    pub fn close(&mut self) {
         let first = self.starts[self.starts.len() - 1] as usize;
-        let per_norm = 1.0 / norm;
-        self.shares[first..self.open]
-            .iter_mut()
-            .for_each(|share| *share *= per_norm);
+        let mut norm = 0.0;
+        for weight in &self.weights[first..self.open] {
+            norm += f64::from(*weight);
+        }
+        self.per_norm.push(1.0 / norm);
         self.starts.push(self.open as u32);
     }
 
@@ -52,90 +61,85 @@ impl Weights {
         self.open
     }
 
-    /// Members of a grain's row and their shares.
+    /// Members of a row and their shares.
+    pub fn row(&self, row: usize) -> impl Iterator<Item = (u32, f64)> + '_ {
+        let (sources, weights) = self.members_of(row);
+        let per_norm = self.per_norm[row];
+        sources
+            .iter()
+            .zip(weights)
+            .map(move |(source, weight)| (*source, f64::from(*weight) * per_norm))
+    }
+
     #[inline(always)]
-    pub fn row(&self, grain: usize) -> (&[u32], &[f64]) {
-        let range = self.starts[grain] as usize..self.starts[grain + 1] as usize;
-        (&self.sources[range.clone()], &self.shares[range])
+    fn members_of(&self, row: usize) -> (&[u32], &[f32]) {
+        let range = self.starts[row] as usize..self.starts[row + 1] as usize;
+        (&self.sources[range.clone()], &self.weights[range])
     }
+}
 
-    /// Weighted mean of a field around a grain.
-    pub fn sample(&self, grain: usize, fields: &[Field]) -> Field {
-        let (sources, shares) = self.row(grain);
-        #[cfg(target_arch = "x86_64")]
-        {
-            if is_x86_feature_detected!("avx512f") {
-                // SAFETY: the feature was just detected.
-                return unsafe { mean_avx512(sources, shares, fields) };
+/// Weighted means of a field, one for every row.
+pub struct Sample<'a> {
+    pub weights: &'a Weights,
+    pub fields: &'a [Field],
+    /// Where the mean of each row belongs.
+    pub order: &'a [u32],
+    pub means: &'a mut [Field],
+}
+
+impl WideWork for Sample<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<W: Wide>(self) {
+        for (row, &grain) in self.order.iter().enumerate() {
+            let (sources, weights) = self.weights.members_of(row);
+            let mut sums = [W::splat(0.0); ABREAST];
+            let (sources, last_sources) = sources.as_chunks::<ABREAST>();
+            let (weights, last_weights) = weights.as_chunks::<ABREAST>();
+            for (sources, weights) in sources.iter().zip(weights) {
+                for lane in 0..ABREAST {
+                    let field = W::from_lanes(self.fields[sources[lane] as usize].0);
+                    sums[lane] = sums[lane] + W::splat(f64::from(weights[lane])) * field;
+                }
             }
-            if is_x86_feature_detected!("avx2") {
-                // SAFETY: the feature was just detected.
-                return unsafe { mean_avx2(sources, shares, fields) };
+            for (source, weight) in last_sources.iter().zip(last_weights) {
+                let field = W::from_lanes(self.fields[*source as usize].0);
+                sums[0] = sums[0] + W::splat(f64::from(*weight)) * field;
             }
+            let sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+            let mean = sum * W::splat(self.weights.per_norm[row]);
+            self.means[grain as usize] = Field(mean.lanes());
         }
-        mean(sources, shares, fields)
-    }
-
-    /// Adds four sums of a grain to those of the fluid particles around it.
-    pub fn spread(&self, grain: usize, impulse: [f64; 4], impulses: &mut [[f64; 4]]) {
-        let (sources, shares) = self.row(grain);
-        #[cfg(target_arch = "x86_64")]
-        if is_x86_feature_detected!("avx2") {
-            // SAFETY: the feature was just detected.
-            return unsafe { scatter_avx2(sources, shares, impulse, impulses) };
-        }
-        scatter(sources, shares, impulse, impulses);
     }
 }
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512vl")]
-fn mean_avx512(sources: &[u32], shares: &[f64], fields: &[Field]) -> Field {
-    mean(sources, shares, fields)
+/// Adds four numbers of every grain, such as an impulse [N s], to the sums of the fluid particles around.
+pub struct Spread<'a> {
+    pub weights: &'a Weights,
+    /// Whose numbers each row spreads.
+    pub order: &'a [u32],
+    pub given: &'a [[f64; 4]],
+    pub sums: &'a mut [[f64; 4]],
 }
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn mean_avx2(sources: &[u32], shares: &[f64], fields: &[Field]) -> Field {
-    mean(sources, shares, fields)
-}
+impl WideWork for Spread<'_> {
+    type Output = ();
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn scatter_avx2(sources: &[u32], shares: &[f64], impulse: [f64; 4], impulses: &mut [[f64; 4]]) {
-    scatter(sources, shares, impulse, impulses);
-}
-
-#[inline(always)]
-fn mean(sources: &[u32], shares: &[f64], fields: &[Field]) -> Field {
-    let mut sums = [[0.0; 8]; ABREAST];
-    let (sources, last_sources) = sources.as_chunks::<ABREAST>();
-    let (shares, last_shares) = shares.as_chunks::<ABREAST>();
-    for (sources, shares) in sources.iter().zip(shares) {
-        for lane in 0..ABREAST {
-            let field = &fields[sources[lane] as usize].0;
-            for (sum, value) in sums[lane].iter_mut().zip(field) {
-                *sum += shares[lane] * value;
+    #[inline(always)]
+    fn run<W: Wide>(self) {
+        for (row, &grain) in self.order.iter().enumerate() {
+            let per_norm = self.weights.per_norm[row];
+            let [x, y, z, other] = self.given[grain as usize];
+            let given = [x * per_norm, y * per_norm, z * per_norm, other * per_norm];
+            let (sources, weights) = self.weights.members_of(row);
+            for (source, weight) in sources.iter().zip(weights) {
+                let weight = f64::from(*weight);
+                let sum = &mut self.sums[*source as usize];
+                for part in 0..4 {
+                    sum[part] += weight * given[part];
+                }
             }
-        }
-    }
-    for (source, share) in last_sources.iter().zip(last_shares) {
-        for (sum, value) in sums[0].iter_mut().zip(&fields[*source as usize].0) {
-            *sum += share * value;
-        }
-    }
-    let mut mean = [0.0; 8];
-    for (i, mean) in mean.iter_mut().enumerate() {
-        *mean = (sums[0][i] + sums[1][i]) + (sums[2][i] + sums[3][i]);
-    }
-    Field(mean)
-}
-
-#[inline(always)]
-fn scatter(sources: &[u32], shares: &[f64], impulse: [f64; 4], impulses: &mut [[f64; 4]]) {
-    for (source, share) in sources.iter().zip(shares) {
-        for (sum, value) in impulses[*source as usize].iter_mut().zip(&impulse) {
-            *sum += share * value;
         }
     }
 }

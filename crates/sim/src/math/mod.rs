@@ -1,10 +1,12 @@
 //! Vectors and the few numbers every room needs.
 
+mod curve;
 pub mod elementary;
 mod number;
 mod random;
 mod vector;
 
+pub use curve::along_curve;
 pub use number::Number;
 pub(crate) use number::bits;
 pub use random::Random;

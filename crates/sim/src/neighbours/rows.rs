@@ -1,6 +1,6 @@
 //! Full neighbour rows, padded so that every row is a whole number of lanes.
 
-use super::CellGrid;
+use super::{CellGrid, Wide, WideWork, in_widest};
 use crate::math::Vec3;
 
 /// Pairs evaluated at once. Eight doubles fill the widest registers; the sums are kept per lane,
@@ -62,21 +62,22 @@ impl Rows {
             pairs: 0,
         };
         rows.starts.push(0);
-        for (target, radius) in targets.iter().zip(radii) {
-            let first = rows.members.len();
-            grid.visit_near(target, |index| {
-                let distance2 = (points[index as usize] - target).norm_squared();
-                if distance2 < radius * radius && distance2 > 0.0 {
-                    rows.members.push(index);
-                }
-            });
-            rows.members[first..].sort_unstable();
-            rows.pairs += (rows.members.len() - first) as u64;
-            let padded = (rows.members.len() - first).next_multiple_of(LANES);
-            rows.members.resize(first + padded, nobody);
-            rows.starts.push(rows.members.len() as u32);
-        }
+        in_widest(Collection {
+            grid: &grid,
+            targets,
+            radii,
+            nobody,
+            rows: &mut rows,
+        });
         rows
+    }
+
+    fn close(&mut self, members: &[u32], nobody: u32) {
+        self.pairs += members.len() as u64;
+        self.members.extend_from_slice(members);
+        self.members
+            .resize(self.members.len().next_multiple_of(LANES), nobody);
+        self.starts.push(self.members.len() as u32);
     }
 
     /// Neighbours of a target: a whole number of lanes.
@@ -97,6 +98,28 @@ impl Rows {
 
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+}
+
+/// Fills rows that are still empty.
+struct Collection<'a> {
+    grid: &'a CellGrid,
+    targets: &'a [Vec3],
+    radii: &'a [f64],
+    nobody: u32,
+    rows: &'a mut Rows,
+}
+
+impl WideWork for Collection<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<W: Wide>(self) {
+        let mut found = Vec::new();
+        for (target, radius) in self.targets.iter().zip(self.radii) {
+            let count = self.grid.find_near::<W>(target, *radius, &mut found);
+            self.rows.close(&found[..count], self.nobody);
+        }
     }
 }
 

@@ -144,7 +144,7 @@ pub fn assemble<L: PolydisperseLaw>(settling: &Settling, sph: &SphFluid, law: L)
     let grains = rigid_grains(settling, sph, &position);
     let mut exchange = exchange(settling, sph, &fluid, &position);
     if scheme.start == Start::Exact {
-        exchange.refresh(&fluid, &position, &vec![Vec3::zeros(); position.len()]);
+        exchange.refresh(&fluid, 0.0, &position, &vec![Vec3::zeros(); position.len()]);
         let solids = &exchange.solids.fraction;
         let porosity: Vec<f64> = solids.iter().map(|solids| 1.0 - solids).collect();
         let drive = if grains.held || settling.block.is_none() {
@@ -302,7 +302,7 @@ fn resolved_length(settling: &Settling, sph: &SphFluid, fluid: &FluidParticles) 
             floor_images: false,
         };
         let mut exchange = Exchange::new(vec![size], rules, fluid, &grain);
-        exchange.refresh(fluid, &grain, &[Vec3::zeros()]);
+        exchange.refresh(fluid, 0.0, &grain, &[Vec3::zeros()]);
         exchange.echo(0, fluid)
     };
     let mean = (0..PHASES).map(echo).sum::<f64>() / PHASES as f64;

@@ -54,12 +54,17 @@ pub struct Simulation<L, G = RigidGrains> {
     position: Vec<Vec3>,
     velocity: Vec<Vec3>,
     fields: Vec<Field>,
+    /// What each grain samples of them.
+    samples: Vec<Field>,
     states: Vec<DragState>,
     coefficients: Vec<f64>,
     forces: Vec<FluidForce>,
     /// What each grain got of the fluid in the last step [N s], and how long that was [s].
     impulses: Vec<Vec3>,
     exchanged_over: f64,
+    /// Impulses over time [N] and drag coefficients [kg/s] that the grains hand back, and their sums by
+    /// fluid particle.
+    given: Vec<[f64; 4]>,
     reactions: Vec<[f64; 4]>,
     /// Rate B at which the drag of all grains around stops each particle [1/s], and the velocity of the
     /// particle that the last reaction answers [m/s].
@@ -94,17 +99,19 @@ impl<L: PolydisperseLaw, G: GrainSet> Simulation<L, G> {
             position: Vec::new(),
             velocity: Vec::new(),
             fields: vec![Field::default(); particles],
+            samples: vec![Field::default(); count],
             states: vec![DragState::default(); count],
             coefficients: vec![0.0; count],
             forces: vec![FluidForce::default(); count],
             impulses: vec![Vec3::zeros(); count],
             exchanged_over: 0.0,
+            given: vec![[0.0; 4]; count],
             reactions: vec![[0.0; 4]; particles],
             stopping: vec![0.0; particles],
             answered: vec![Vec3::zeros(); particles],
             companions: vec![Vec3::zeros(); count],
         };
-        simulation.refresh_weights(0.0);
+        simulation.refresh_weights([0.0; 2]);
         simulation.carry_porosity();
         simulation.fluid.sum_rates(0.0);
         simulation.start_energy = simulation.fluid.elastic_energy();
@@ -137,13 +144,17 @@ impl<L: PolydisperseLaw, G: GrainSet> Simulation<L, G> {
         self.since_refresh += dt;
         self.steps_since_refresh += 1;
         if self.steps_since_refresh >= self.rules.refresh_interval {
-            self.refresh_weights(dt);
+            // In the middle of the steps they serve, weights are right to second order. The fluid has moved
+            // already, the grains are a step behind.
+            let middle = 0.5 * (self.rules.refresh_interval - 1) as f64 * dt;
+            self.refresh_weights([dt + middle, middle]);
+            self.since_refresh = -middle;
         }
         self.carry_porosity();
     }
 
-    /// Weights and solids for the grains `ahead` [s] from now, if nothing pushes them meanwhile.
-    fn refresh_weights(&mut self, ahead: f64) {
+    /// Weights and solids for the grains and the fluid `ahead` [s] from now, if nothing pushes them meanwhile.
+    fn refresh_weights(&mut self, [ahead, fluid_ahead]: [f64; 2]) {
         let (grains, width) = (&self.grains, self.fluid.width);
         let wrapped = |x: Vec3| Vec3::new(x.x.rem_euclid(width), x.y.rem_euclid(width), x.z);
         let places = (0..grains.len()).map(|i| wrapped(grains.position(i) + grains.velocity(i) * ahead));
@@ -152,7 +163,8 @@ impl<L: PolydisperseLaw, G: GrainSet> Simulation<L, G> {
         self.velocity.clear();
         self.velocity
             .extend((0..grains.len()).map(|i| grains.velocity(i)));
-        self.exchange.refresh(&self.fluid, &self.position, &self.velocity);
+        self.exchange
+            .refresh(&self.fluid, fluid_ahead, &self.position, &self.velocity);
         if let GrainPorosity::OnePass(sums) = &mut self.rules.porosity {
             sums.refresh(&self.position);
         }
@@ -170,8 +182,8 @@ impl<L: PolydisperseLaw, G: GrainSet> Simulation<L, G> {
         for ((field, flux), fraction) in self.fields.iter_mut().zip(&solids.flux).zip(&solids.fraction) {
             *field = Field::new(*flux, Vec3::zeros(), *fraction, 0.0);
         }
-        for (grain, companions) in self.companions.iter_mut().enumerate() {
-            let sample = self.exchange.sample(grain, &self.fields);
+        self.exchange.sample_all(&self.fields, &mut self.samples);
+        for (companions, sample) in self.companions.iter_mut().zip(&self.samples) {
             *companions = sample.velocity() / sample.porosity().max(f64::MIN_POSITIVE);
         }
     }

@@ -82,9 +82,9 @@ impl<L: PolydisperseLaw, G: GrainSet> Simulation<L, G> {
     /// What the fluid does to each grain.
     fn sum_forces(&mut self, own: OwnFlow) {
         self.report.sampled = 0.0;
-        for row in 0..self.forces.len() {
-            let grain = self.exchange.order()[row] as usize;
-            let sample = self.exchange.sample(grain, &self.fields);
+        self.exchange.sample_all(&self.fields, &mut self.samples);
+        for grain in 0..self.forces.len() {
+            let sample = self.samples[grain];
             self.forces[grain] = self.force_but_drag(grain, &sample, own);
             self.states[grain] = self.drag_state(grain, &sample);
             self.report.sampled -= sample.velocity().z / self.forces.len() as f64;
@@ -160,16 +160,12 @@ impl<L: PolydisperseLaw, G: GrainSet> Simulation<L, G> {
 
     /// Gives the fluid what the grains got, as a reaction to act over the next kicks.
     fn hand_back(&mut self, dt: f64) {
-        self.reactions.fill([0.0; 4]);
-        for &grain in self.exchange.order() {
-            let given = -self.impulses[grain as usize] / dt;
-            let drag = self.coefficients[grain as usize];
-            self.exchange.spread(
-                grain as usize,
-                [given.x, given.y, given.z, drag],
-                &mut self.reactions,
-            );
+        for ((given, impulse), drag) in self.given.iter_mut().zip(&self.impulses).zip(&self.coefficients) {
+            let force = -impulse / dt;
+            *given = [force.x, force.y, force.z, *drag];
         }
+        self.reactions.fill([0.0; 4]);
+        self.exchange.spread(&self.given, &mut self.reactions);
         for (a, sums) in self.reactions.iter().enumerate() {
             let mass = self.fluid.mass[a];
             self.fluid.reaction[a] = Vec3::new(sums[0], sums[1], sums[2]) / mass;

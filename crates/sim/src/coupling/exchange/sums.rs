@@ -44,12 +44,10 @@ impl WideWork for Weigh<'_> {
                 _ => &mut exchange.sums,
             };
             let mirrored = exchange.rules.floor_images && place.z < 2.0 * size.length;
-            let mut norm = W::splat(0.0);
             for members in exchange.candidates.row(row).as_chunks::<LANES>().0 {
                 let fields = W::gather(&exchange.points, members);
                 let (q, solids) = grain.solids(&fields);
                 let weight = fields[6] * exchange.rules.sharpening.value(q);
-                norm = norm + weight;
                 let (q, weight) = (q.lanes(), weight.lanes());
                 let records = match mirrored {
                     true => W::records(grain.with_image(&fields, solids)),
@@ -64,7 +62,7 @@ impl WideWork for Weigh<'_> {
                     exchange.weights.offer(source, weight[lane], q[lane] < 2.0);
                 }
             }
-            exchange.weights.close(norm.total());
+            exchange.weights.close();
         }
     }
 }

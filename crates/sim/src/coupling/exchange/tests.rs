@@ -53,7 +53,7 @@ fn over(fluid: &FluidParticles, position: &[Vec3], floor_images: bool) -> Exchan
         floor_images,
     };
     let mut exchange = Exchange::new(sizes(), rules, fluid, position);
-    exchange.refresh(fluid, position, &falling());
+    exchange.refresh(fluid, 0.0, position, &falling());
     exchange
 }
 
@@ -66,6 +66,12 @@ fn all(fluid: &FluidParticles, values: &[f64]) -> f64 {
     (0..fluid.len()).map(|a| values[a] * fluid.volume(a)).sum()
 }
 
+fn samples(exchange: &Exchange, fields: &[Field]) -> Vec<Field> {
+    let mut means = Vec::new();
+    exchange.sample_all(fields, &mut means);
+    means
+}
+
 #[test]
 fn a_constant_field_is_sampled_exactly_and_an_impulse_arrives_whole() {
     let fluid = fluid();
@@ -74,11 +80,11 @@ fn a_constant_field_is_sampled_exactly_and_an_impulse_arrives_whole() {
     let fields = vec![constant; fluid.len()];
     let mut impulses = vec![[0.0; 4]; fluid.len()];
     let given: Vec<Vec3> = grains().iter().map(|x| x - Vec3::repeat(0.5)).collect();
-    for (i, impulse) in given.iter().enumerate() {
-        exchange.spread(i, [impulse.x, impulse.y, impulse.z, 0.0], &mut impulses);
-        let mean = exchange.sample(i, &fields);
+    for mean in samples(&exchange, &fields) {
         assert!((mean.velocity() - constant.velocity()).norm() < 1e-14);
     }
+    let numbers: Vec<[f64; 4]> = given.iter().map(|i| [i.x, i.y, i.z, 0.0]).collect();
+    exchange.spread(&numbers, &mut impulses);
     let arrived = impulses
         .iter()
         .fold(Vec3::zeros(), |sum, i| sum + Vec3::new(i[0], i[1], i[2]));
@@ -92,8 +98,8 @@ fn each_grain_finds_its_own_row_among_all() {
     let fields: Vec<Field> = (fluid.position.iter())
         .map(|x| Field::new(*x, Vec3::zeros(), 1.0, 0.0))
         .collect();
-    for (i, grain) in grains().iter().enumerate() {
-        let mean = exchange.sample(i, &fields).velocity();
+    for (grain, mean) in grains().iter().zip(samples(&exchange, &fields)) {
+        let mean = mean.velocity();
         // Away from the periodic sides the mean position is that of the grain.
         if (grain - Vec3::new(0.5, 0.5, grain.z)).amax() < 0.15 && (grain.z - 0.6).abs() < 0.2 {
             assert!((mean - grain).norm() < 0.02, "{grain}");
@@ -159,7 +165,7 @@ fn a_grain_that_crosses_a_periodic_side_keeps_its_row() {
     let moved = shifted(0.02);
     assert!(moved.iter().zip(&grains()).any(|(now, before)| now.x < before.x));
     let mut carried = exchange(&fluid);
-    carried.refresh(&fluid, &moved, &falling());
+    carried.refresh(&fluid, 0.0, &moved, &falling());
     assert_eq!(carried.collections, 1);
     let anew = over(&fluid, &moved, false);
     for a in 0..fluid.len() {
@@ -185,15 +191,28 @@ fn every_instruction_set_gives_the_same_bits() {
     for (plain, dispatched) in plain.sums.iter().zip(&dispatched.sums) {
         assert_eq!(plain.0, dispatched.0);
     }
-    for i in 0..grains().len() {
-        assert_eq!(plain.weights.row(i), dispatched.weights.row(i));
+    for row in 0..grains().len() {
+        assert!(plain.weights.row(row).eq(dispatched.weights.row(row)));
+    }
+    let fields: Vec<Field> = (fluid.position.iter())
+        .map(|x| Field::new(*x, -x, 0.9, 2.0))
+        .collect();
+    let mut means = vec![Field::default(); grains().len()];
+    WideWork::run::<Plain>(Sample {
+        weights: &plain.weights,
+        fields: &fields,
+        order: &plain.order,
+        means: &mut means,
+    });
+    for (plain, dispatched) in means.iter().zip(samples(&dispatched, &fields)) {
+        assert_eq!(plain.0, dispatched.0);
     }
 }
 
 #[test]
 fn the_visiting_order_names_every_grain_once() {
     let fluid = fluid();
-    let mut order = exchange(&fluid).order().to_vec();
+    let mut order = exchange(&fluid).order;
     order.sort_unstable();
     assert!(order.into_iter().eq(0..grains().len() as u32));
 }

@@ -14,7 +14,7 @@ use crate::bed::{self, Attraction, Bed, Grain, Grains, Interaction, Listing, Por
 use crate::cohesion::VanDerWaals;
 use crate::contact::{Body, ContactLaws, Couple};
 use crate::coupling::slices::Measure;
-use crate::math::{Random, Vec3};
+use crate::math::{Random, Vec3, along_curve};
 use crate::neighbours::Search;
 
 /// Everything a scene starts from.
@@ -84,8 +84,13 @@ pub fn moving_grains(scene: &Sedimentation) -> Result<Vec<Grain>, Fault> {
         }
         Arrangement::Snapshot(snapshot) => return Ok(snapshot::grains(scene, snapshot)),
     }?;
-    let placed = bodies.into_iter().zip(positions);
+    let mut placed: Vec<_> = bodies.into_iter().zip(positions).collect();
+    if scene.arrangement == Arrangement::Even {
+        // A suspension keeps its neighbours for long: what goes by number then stays together in memory.
+        placed = along_the_column(&placed);
+    }
     Ok(placed
+        .into_iter()
         .map(|((body, class), position)| Grain {
             body,
             class,
@@ -95,6 +100,14 @@ pub fn moving_grains(scene: &Sedimentation) -> Result<Vec<Grain>, Fault> {
             angular_velocity: Vec3::zeros(),
         })
         .collect())
+}
+
+/// Grains in an order in which neighbours follow each other.
+fn along_the_column<G: Copy>(placed: &[((Body, G), Vec3)]) -> Vec<((Body, G), Vec3)> {
+    let places: Vec<[f64; 3]> = placed.iter().map(|(_, position)| (*position).into()).collect();
+    let widest = placed.iter().map(|((body, _), _)| body.radius).fold(0.0, f64::max);
+    let order = along_curve(&places, 2.0 * widest);
+    order.into_iter().map(|grain| placed[grain as usize]).collect()
 }
 
 /// Sizes and classes of all moving grains; sizes of a spread class are drawn in turn.

@@ -42,7 +42,7 @@ impl<L: PolydisperseLaw> InParticles<L> {
         let mut fluid = still_fluid(&particles);
         let mut exchange = exchange(&particles, &grains, &fluid, &position);
         if exact {
-            exchange.refresh(&fluid, &position, &velocity);
+            exchange.refresh(&fluid, 0.0, &position, &velocity);
             prepare(&particles, &mut fluid, &exchange);
         }
         let rules = rules(&particles, law, &grains, &fluid);
@@ -215,7 +215,7 @@ fn rules<L: PolydisperseLaw>(
                 fluid.numerics.spacing,
             )
         }),
-        refresh_interval: REFRESH_INTERVAL,
+        refresh_interval: std::env::var("RI").ok().and_then(|x| x.parse().ok()).unwrap_or(REFRESH_INTERVAL),
     }
 }
 
