@@ -105,7 +105,7 @@ impl Solids {
 }
 
 /// Share of the widest support added to the candidate rows.
-const SKIN: f64 = 0.08;
+const SKIN: f64 = 0.12;
 
 pub struct Exchange {
     pub rules: ExchangeRules,

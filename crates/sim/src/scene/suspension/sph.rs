@@ -17,8 +17,6 @@ use crate::scene::sedimentation::start;
 use crate::scene::{Hydrostatics, PorosityPath, SharpeningChoice, SphFluid, Start, StressDensity};
 use crate::simulation::{CouplingRules, FreeGrains, GrainPorosity, GrainSet, Simulation, SlipRule};
 
-/// Fluid steps between refreshes of the weights.
-const REFRESH_INTERVAL: u64 = 8;
 /// Steps between two audits of momentum.
 const AUDIT_INTERVAL: u64 = 16;
 
@@ -215,7 +213,7 @@ fn rules<L: PolydisperseLaw>(
                 fluid.numerics.spacing,
             )
         }),
-        refresh_interval: std::env::var("RI").ok().and_then(|x| x.parse().ok()).unwrap_or(REFRESH_INTERVAL),
+        refresh_interval: particles.refresh_interval(),
     }
 }
 
