@@ -171,15 +171,9 @@ impl Grains {
         };
         arranged(&mut self.motion);
         arranged(&mut self.spin);
-        let number: Vec<u32> = order
-            .iter()
-            .map(|&grain| self.number[grain as usize])
-            .collect();
+        let number: Vec<u32> = order.iter().map(|&grain| self.number[grain as usize]).collect();
         self.number[..moving].copy_from_slice(&number);
-        let class: Vec<u16> = order
-            .iter()
-            .map(|&grain| self.class[grain as usize])
-            .collect();
+        let class: Vec<u16> = order.iter().map(|&grain| self.class[grain as usize]).collect();
         self.class[..moving].copy_from_slice(&class);
     }
 }

@@ -49,8 +49,6 @@ pub struct Recorder {
     tracked: [usize; 4],
     samples: Vec<Sample>,
     window: (f64, f64),
-    momentum_before: Vec3,
-    auditing: bool,
     /// Largest momentum residual of an audited step and largest impulse exchanged in a step [N s].
     residual: f64,
     exchanged: f64,
@@ -89,8 +87,6 @@ impl Recorder {
                 ..Sample::default()
             }],
             window: terminal_window(settling, Some(sound)),
-            momentum_before: Vec3::zeros(),
-            auditing: false,
             residual: 0.0,
             exchanged: 0.0,
             spurious: 0.0,
@@ -120,29 +116,17 @@ impl Recorder {
         }
     }
 
-    /// Before a step: the momentum to compare with, on audited steps.
-    pub fn before<L: PolydisperseLaw>(&mut self, simulation: &Simulation<L>, step: u64, dt: f64) {
-        self.auditing = step.is_multiple_of(AUDIT_INTERVAL);
-        if self.auditing {
-            self.momentum_before = simulation.momentum(dt);
-        }
-    }
-
-    /// After a step: audit and sample.
-    pub fn after<L: PolydisperseLaw>(&mut self, simulation: &Simulation<L>, step: u64, dt: f64) {
-        self.exchanged = self.exchanged.max(simulation.report.impulse);
-        if self.auditing {
-            let outside = simulation.external_impulse(dt) + simulation.fluid.wall_force() * dt;
-            let residual = simulation.momentum(dt) - self.momentum_before - outside;
+    /// Takes a step, audits and samples.
+    pub fn step<L: PolydisperseLaw>(&mut self, simulation: &mut Simulation<L>, step: u64, dt: f64) {
+        if step.is_multiple_of(AUDIT_INTERVAL) {
+            let residual = simulation.audited_step(dt);
             self.residual = self.residual.max(residual.norm());
-            let fastest = simulation
-                .fluid
-                .velocity
-                .iter()
-                .map(Vec3::norm_squared)
-                .fold(0.0, f64::max);
-            self.spurious = self.spurious.max(fastest.sqrt());
+            let speeds = simulation.fluid.velocity.iter().map(Vec3::norm_squared);
+            self.spurious = self.spurious.max(speeds.fold(0.0, f64::max).sqrt());
+        } else {
+            simulation.step(dt);
         }
+        self.exchanged = self.exchanged.max(simulation.report.impulse);
         if (step + 1).is_multiple_of(self.every) {
             self.samples.push(self.sample(simulation));
         }

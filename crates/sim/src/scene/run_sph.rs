@@ -48,9 +48,7 @@ pub fn run<L: PolydisperseLaw>(
                 &simulation,
             ));
         }
-        recorder.before(&simulation, step, dt);
-        simulation.step(dt);
-        recorder.after(&simulation, step, dt);
+        recorder.step(&mut simulation, step, dt);
         if let Some(reason) = divergence(&simulation, settling.column.height) {
             return Err(failure(FailureKind::Diverged, reason, recorder, &simulation));
         }

@@ -5,18 +5,20 @@ use crate::drag::PolydisperseLaw;
 use crate::math::Vec3;
 
 impl<L: PolydisperseLaw, G: GrainSet> Simulation<L, G> {
-    /// Momentum of fluid and grains [N s] in the middle of the next step of `dt` [s], where the kicks of
-    /// the fluid meet: from one middle to the next it changes by whole impulses.
-    pub fn momentum(&self, dt: f64) -> Vec3 {
-        self.fluid.momentum_ahead(0.5 * dt) + self.grains.momentum()
-    }
-
-    /// Impulse from outside on fluid and grains in the last step of `dt` [s], that of the floor on the
-    /// fluid left out, that of the breathing damper included [N s].
-    pub fn external_impulse(&self, dt: f64) -> Vec3 {
+    /// A step of `dt` [s] like any other; returns what of the change of momentum nothing accounts for [N s].
+    pub fn audited_step(&mut self, dt: f64) -> Vec3 {
+        let before = self.momentum(dt);
+        self.step(dt);
         let weight = self.fluid.mass.iter().sum::<f64>() * self.fluid.numerics.gravity;
         let damper = (self.rules.breathing.as_ref()).map_or(0.0, |breathing| breathing.impulse);
-        self.report.outside + Vec3::new(0.0, 0.0, damper - weight * dt)
+        let on_fluid = self.fluid.wall_force() * dt + Vec3::new(0.0, 0.0, damper - weight * dt);
+        self.momentum(dt) - before - self.report.outside - on_fluid
+    }
+
+    /// Momentum of fluid and grains [N s] in the middle of the next step of `dt` [s], where the kicks of
+    /// the fluid meet: from one middle to the next it changes by whole impulses.
+    fn momentum(&self, dt: f64) -> Vec3 {
+        self.fluid.momentum_ahead(0.5 * dt) + self.grains.momentum()
     }
 
     /// Kinetic energy and its bound [J], when it is more than twice what gravity and the compression

@@ -140,6 +140,26 @@ fn an_even_arrangement_has_no_long_waves_and_neither_has_any_part_of_its_list() 
 }
 
 #[test]
+fn an_even_arrangement_has_no_clusters_in_a_box_of_any_shape() {
+    let radii = vec![0.5; 2292];
+    // Twenty diameters wide and sixty high, dilute.
+    let side = 20.0;
+    let region = Region {
+        width: side,
+        depth: side,
+        height: 60.0,
+        periodic: [true, true],
+        dimensions: Dimensions::Three,
+    };
+    let even = even(&region, &radii, &mut Random::new(1)).unwrap();
+    assert_sound(&region, &radii, &even);
+    for (low, high) in [(1.0, 2.0), (2.0, 3.0), (3.0, 4.0)] {
+        let found = pair_correlation(&region, &even, low, high);
+        assert!((found - 1.0).abs() < 0.1, "{found} from {low} to {high}");
+    }
+}
+
+#[test]
 fn an_even_arrangement_fills_the_box_up_to_its_floor_and_lid() {
     let radii = vec![0.5; 4000];
     for fraction in [0.02, 0.1, 0.4] {

@@ -105,7 +105,10 @@ pub fn moving_grains(scene: &Sedimentation) -> Result<Vec<Grain>, Fault> {
 /// Grains in an order in which neighbours follow each other.
 fn along_the_column<G: Copy>(placed: &[((Body, G), Vec3)]) -> Vec<((Body, G), Vec3)> {
     let places: Vec<[f64; 3]> = placed.iter().map(|(_, position)| (*position).into()).collect();
-    let widest = placed.iter().map(|((body, _), _)| body.radius).fold(0.0, f64::max);
+    let widest = placed
+        .iter()
+        .map(|((body, _), _)| body.radius)
+        .fold(0.0, f64::max);
     let order = along_curve(&places, 2.0 * widest);
     order.into_iter().map(|grain| placed[grain as usize]).collect()
 }

@@ -11,6 +11,10 @@ const PACKED: f64 = 0.36;
 /// Way of the fastest grains between two refreshes of the weights, over the exchange length [-]. From 0.01 to
 /// 0.04 the interface's speed changes by 2e-4, at 0.08 by 8e-4.
 const WAY: f64 = 0.04;
+/// Solids in the cube of an exchange length, over those in the cube of a diameter where they fill it [-]. In
+/// glass and water at a porosity of 0.9 the velocities of the grains scatter more and more below 5, the
+/// faster the fewer they are; from 7 to 22 the scatter falls and the interface's speed stays within 0.6 %.
+const CROWD: f64 = 7.0;
 
 /// A suspension in its particle fluid.
 #[derive(Clone, Copy)]
@@ -36,9 +40,13 @@ impl Particles<'_> {
         }
     }
 
-    /// Exchange length of grains of a diameter [m].
+    /// Exchange length of grains of a diameter [m]. With fewer grains in a kernel their disorder stirs the
+    /// fluid, which disorders them more.
     pub fn exchange_length(&self, diameter: f64) -> f64 {
-        self.porosity_length(diameter).max(1.2 * self.spacing())
+        let porosity_length = self.porosity_length(diameter);
+        let diameter = porosity_length / POROSITY_LENGTH;
+        let crowded = diameter * (CROWD / (1.0 - self.scene.porosity)).cbrt();
+        porosity_length.max(1.2 * self.spacing()).max(crowded)
     }
 
     /// Weight less buoyancy of the solids over their volume [N/m³].
