@@ -126,7 +126,14 @@ impl Page {
             ),
             work: effort.iter().map(effort_row).collect(),
             points_head: work_head(
-                &["point", "status", "wall time", "CPU time", "peak memory"],
+                &[
+                    "point",
+                    "status",
+                    "wall time",
+                    "CPU time",
+                    "split of time",
+                    "peak memory",
+                ],
                 &counters,
             ),
             points: runs.iter().map(|run| point_row(study, run, &counters)).collect(),
@@ -361,6 +368,10 @@ fn point_row(study: &Study, run: &Run, counters: &[String]) -> Vec<String> {
         table::status_word(run.status).to_owned(),
         format::duration(run.timing.wall),
         format::duration(run.timing.cpu),
+        match run.timing.split_in_words() {
+            words if words.is_empty() => "–".to_owned(),
+            words => words,
+        },
         format::memory(run.timing.peak_memory),
     ];
     row.extend(counters.iter().map(|name| {

@@ -79,6 +79,7 @@ fn run(scene: usize, spacing: f64) -> Run {
             wall: (30.0 + 7.0 * scene as f64) / spacing.powf(3.2),
             cpu: 29.0 / spacing.powf(3.2),
             peak_memory: (60e6 / spacing) as u64,
+            split: vec![("fluid".into(), 3.0), ("exchange".into(), 1.0)],
             provenance: Provenance {
                 commit: "0123456789abcdef".into(),
                 dirty: scene == 2,

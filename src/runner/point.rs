@@ -71,9 +71,11 @@ pub(super) fn execute(
         );
         cause.get().is_some()
     };
+    let split = Cell::new(Vec::new());
     let control = Control {
         stop: &stop,
         progress,
+        split: &|parts| split.set(parts.to_vec()),
     };
     let work = &planned.point.work;
     match limits.memory.map(|limit| (limit, estimate(work).memory)) {
@@ -91,6 +93,11 @@ pub(super) fn execute(
         wall: start.0.elapsed().as_secs_f64(),
         cpu: clock::thread_time().saturating_sub(start.1).as_secs_f64(),
         peak_memory: memory::peak(),
+        split: split
+            .take()
+            .into_iter()
+            .map(|(part, time)| (part.to_owned(), time))
+            .collect(),
         provenance: Provenance::current(),
     };
     Some(run)

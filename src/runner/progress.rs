@@ -62,12 +62,15 @@ impl Progress {
             shown.finished += 1;
             shown.failed += usize::from(failed);
         });
-        let line = format!(
+        let mut line = format!(
             "{}: {}, {:.2} s",
             label(&planned.point),
             ending(run),
             run.timing.wall
         );
+        if !run.timing.split.is_empty() {
+            line += &format!(" ({})", run.timing.split_in_words());
+        }
         match &self.bar {
             None => eprintln!("[{number}/{}] {line}", self.weights.len()),
             Some(bar) if failed => bar.println(line),

@@ -95,6 +95,7 @@ fn describe(role: &str, name: &str) -> String {
         ("counter", name) => format!("work counter {name}"),
         ("timing", "wall") => "wall time".into(),
         ("timing", "cpu") => "processor time of the threads that worked on the run".into(),
+        ("timing", "split_json") => "what the run spent its time on [s], JSON".into(),
         ("timing", "peak_memory") => "largest memory of the run".into(),
         ("provenance", "dirty") => "whether the sources differed from the commit".into(),
         ("provenance", "lock_hash") => "BLAKE3 of Cargo.lock".into(),

@@ -176,7 +176,18 @@ pub struct Timing {
     pub cpu: f64,
     /// Peak memory of the point [bytes].
     pub peak_memory: u64,
+    /// What the point spent its time on [s], by name; empty where nobody keeps count.
+    pub split: Vec<(String, f64)>,
     pub provenance: Provenance,
+}
+
+impl Timing {
+    /// The split of time in words: `fluid 31 %, exchange 40 %`; empty where nobody keeps count.
+    pub fn split_in_words(&self) -> String {
+        let all: f64 = self.split.iter().map(|(_, time)| time).sum();
+        let part = |(name, time): &(String, f64)| format!("{name} {:.0} %", 100.0 * time / all);
+        self.split.iter().map(part).collect::<Vec<_>>().join(", ")
+    }
 }
 
 /// Where a result comes from.

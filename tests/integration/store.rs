@@ -68,6 +68,7 @@ fn awkward(id: &str) -> Run {
             wall: 1.25,
             cpu: 1.125,
             peak_memory: 1 << 40,
+            split: vec![("fluid".into(), 0.75), ("grains".into(), 0.25)],
             provenance: Provenance {
                 dirty: true,
                 cpu: "a processor".into(),

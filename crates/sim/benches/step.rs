@@ -177,6 +177,7 @@ fn coupled(position: Vec<Vec3>, isolated: bool, refresh_interval: u64) -> Simula
     let exchange_rules = ExchangeRules {
         sharpening,
         floor_images: !isolated,
+        cut: 2.0,
     };
     let exchange = Exchange::new(sizes, exchange_rules, &fluid, &position);
     Simulation::new(fluid, grains, exchange, rules)

@@ -76,6 +76,8 @@ pub struct Control<'a> {
     pub stop: &'a dyn Fn() -> bool,
     /// Told the finished fraction, 0 to 1, from time to time.
     pub progress: &'a dyn Fn(f64),
+    /// Told at the end what the run spent its time on [s], by name, where the scene keeps count.
+    pub split: &'a dyn Fn(&[(&'static str, f64)]),
 }
 
 impl Control<'_> {
@@ -83,5 +85,6 @@ impl Control<'_> {
     pub const SILENT: Control<'static> = Control {
         stop: &|| false,
         progress: &|_| {},
+        split: &|_| {},
     };
 }

@@ -88,7 +88,7 @@ pub enum SuspendingFluidSpec {
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(default)]
 pub struct SoftContactSpec {
-    /// Left `automatic`, the softest that keeps overlaps at 0.3 % of the smallest diameter.
+    /// Left `automatic`, the softest that keeps overlaps at 0.25 % of the smallest diameter.
     pub stiffness: StiffnessSpec,
     /// Restitution of a dry contact.
     pub restitution: Fraction,

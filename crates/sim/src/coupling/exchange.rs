@@ -74,6 +74,8 @@ pub struct ExchangeRules {
     /// Whether grains are mirrored at the floor z = 0 in what the fluid learns of them: a grain next to it
     /// then gives all its volume to the fluid side, and solids have no flux through it.
     pub floor_images: bool,
+    /// r/h from which on fluid particles get no weight, 2 for the whole kernel [-].
+    pub cut: f64,
 }
 
 /// What the fluid knows of the grains, by fluid particle.

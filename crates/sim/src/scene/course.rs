@@ -29,6 +29,11 @@ pub trait Recorded {
     fn is_over(&self) -> bool;
 
     fn outcome(&mut self) -> Outcome;
+
+    /// What the run spent its time on so far [s], by name.
+    fn split_of_time(&self) -> Vec<(&'static str, f64)> {
+        Vec::new()
+    }
 }
 
 /// Follows a run of so many steps over its `duration` [s] to its end, with `most_rows` at most.
@@ -71,6 +76,7 @@ pub fn follow(
             break;
         }
     }
+    (control.split)(&run.split_of_time());
     Ok(run.outcome())
 }
 

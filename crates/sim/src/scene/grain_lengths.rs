@@ -16,6 +16,7 @@ pub fn exchange(settling: &Settling, sph: &SphFluid, fluid: &FluidParticles, pos
             PorosityPath::TwoPass => Sharpening::NONE,
         },
         floor_images: false,
+        cut: 2.0,
     };
     let size = |class: &SuspendedClass| GrainSize {
         diameter: class.diameter,

@@ -56,6 +56,7 @@ pub fn run<L: PolydisperseLaw>(
             (control.progress)(step as f64 / steps as f64);
         }
     }
+    (control.split)(&simulation.split_of_time());
     Ok(recorder.finish(&simulation))
 }
 
@@ -298,6 +299,7 @@ fn resolved_length(settling: &Settling, sph: &SphFluid, fluid: &FluidParticles) 
         let rules = ExchangeRules {
             sharpening,
             floor_images: false,
+            cut: 2.0,
         };
         let mut exchange = Exchange::new(vec![size], rules, fluid, &grain);
         exchange.refresh(fluid, 0.0, &grain, &[Vec3::zeros()]);

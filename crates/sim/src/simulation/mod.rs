@@ -17,6 +17,7 @@ mod audit;
 mod drag;
 mod free;
 mod grains;
+mod laps;
 mod momentum;
 mod rigid;
 mod rules;
@@ -32,6 +33,7 @@ use crate::fluid::FluidParticles;
 use crate::math::Vec3;
 
 use drag::DragState;
+use laps::{Laps, Part};
 
 pub struct Simulation<L, G = RigidGrains> {
     pub fluid: FluidParticles,
@@ -72,6 +74,7 @@ pub struct Simulation<L, G = RigidGrains> {
     answered: Vec<Vec3>,
     /// Mean velocity of the solids around each grain at the last refresh [m/s].
     companions: Vec<Vec3>,
+    laps: Laps,
 }
 
 /// Porosity below which the drag law is not asked.
@@ -110,6 +113,7 @@ impl<L: PolydisperseLaw, G: GrainSet> Simulation<L, G> {
             stopping: vec![0.0; particles],
             answered: vec![Vec3::zeros(); particles],
             companions: vec![Vec3::zeros(); count],
+            laps: Laps::new(),
         };
         simulation.refresh_weights([0.0; 2]);
         simulation.carry_porosity();
@@ -121,18 +125,29 @@ impl<L: PolydisperseLaw, G: GrainSet> Simulation<L, G> {
 
     /// One fluid step of `dt` [s].
     pub fn step(&mut self, dt: f64) {
+        self.laps.start();
         if self.fluid_rests() {
             self.exchange_momentum(dt);
         } else {
             self.fluid.kick_and_drift(dt);
+            self.laps.end(Part::Fluid);
             self.refresh_coupling(dt);
+            self.laps.end(Part::Weights);
             self.fluid.sum_rates(0.5 * dt);
+            self.laps.end(Part::Fluid);
             self.exchange_momentum(dt);
+            self.laps.end(Part::Exchange);
             self.fluid.kick(dt);
             self.damp_breathing(dt);
+            self.laps.end(Part::Fluid);
         }
         self.time += dt;
         self.steps += 1;
+    }
+
+    /// What the steps so far spent their time on [s], by name.
+    pub fn split_of_time(&self) -> Vec<(&'static str, f64)> {
+        self.laps.split()
     }
 
     /// A fluid that neither feels the grains nor carries its own weight never moves.

@@ -1,6 +1,7 @@
 //! The exchange of momentum between grains and fluid over one step.
 
 use super::drag::{DragOnAll, DragState};
+use super::laps::Part;
 use super::{FluidForce, GrainPorosity, GrainSet, POROSITY_FLOOR, Simulation, SlipRule};
 use crate::coupling::Field;
 use crate::drag::PolydisperseLaw;
@@ -16,7 +17,9 @@ impl<L: PolydisperseLaw, G: GrainSet> Simulation<L, G> {
         self.write_fields(0.5 * dt);
         let own = self.own_flow(dt);
         self.sum_forces(own);
+        self.laps.end(Part::Exchange);
         let motion = self.grains.advance(&self.forces, dt, &mut self.impulses);
+        self.laps.end(Part::Grains);
         self.grain_steps += motion.grain_steps;
         self.report.outside = motion.outside;
         self.report.overlap = self.report.overlap.max(motion.overlap);

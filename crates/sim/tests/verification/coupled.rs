@@ -88,6 +88,7 @@ pub fn fallen_speed(position: Vec<Vec3>, steps: usize) -> f64 {
     let exchange_rules = ExchangeRules {
         sharpening: Sharpening::SECOND_ORDER,
         floor_images: false,
+        cut: 2.0,
     };
     let sizes = vec![size(LENGTH); position.len()];
     let exchange = Exchange::new(sizes, exchange_rules, &fluid, &position);

@@ -68,6 +68,7 @@ fn a_stopped_run_keeps_what_it_has() {
         let control = Control {
             stop: &stop,
             progress: &|_| {},
+            split: &|_| {},
         };
         let failure = failed(&scene, &control);
         assert_eq!(failure.kind, FailureKind::Stopped);
@@ -91,6 +92,7 @@ fn progress_rises_towards_one() {
     let control = Control {
         stop: &|| false,
         progress: &progress,
+        split: &|_| {},
     };
     run(
         &Scene::SingleSphere(sphere(particles(4.0, Scheme::default()))),

@@ -33,6 +33,7 @@ impl WideWork for Weigh<'_> {
     #[inline(always)]
     fn run<W: Wide>(self) {
         let exchange = self.exchange;
+        let cut = exchange.rules.cut;
         for (row, &i) in exchange.order.iter().enumerate() {
             let i = i as usize;
             let size = &exchange.sizes[i];
@@ -59,7 +60,7 @@ impl WideWork for Weigh<'_> {
                     for (sum, value) in sum.iter_mut().zip(&records[lane].0) {
                         *sum += value;
                     }
-                    exchange.weights.offer(source, weight[lane], q[lane] < 2.0);
+                    exchange.weights.offer(source, weight[lane], q[lane] < cut);
                 }
             }
             exchange.weights.close();

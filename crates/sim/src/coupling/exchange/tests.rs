@@ -51,6 +51,7 @@ fn over(fluid: &FluidParticles, position: &[Vec3], floor_images: bool) -> Exchan
     let rules = ExchangeRules {
         sharpening: Sharpening::SECOND_ORDER,
         floor_images,
+        cut: 2.0,
     };
     let mut exchange = Exchange::new(sizes(), rules, fluid, position);
     exchange.refresh(fluid, 0.0, position, &falling());

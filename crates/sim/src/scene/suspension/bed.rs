@@ -12,7 +12,7 @@ use crate::scene::sedimentation::{
 use crate::scene::{Drag, IntegratorChoice, Normal, Rolling, Tangential};
 
 /// Overlap [-] that the picked stiffness allows, over the smallest diameter.
-const OVERLAP: f64 = 0.003;
+const OVERLAP: f64 = 0.0025;
 /// Stiffness of the tangential spring over that of the normal one: a sphere's slip is resisted by 2/7 of
 /// its mass, so that slip and approach swing at the same rate.
 const TANGENTIAL: f64 = 2.0 / 7.0;

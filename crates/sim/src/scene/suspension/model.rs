@@ -87,7 +87,7 @@ impl SuspendingFluid {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SoftContact {
     /// k [N/m]; `None` takes the softest spring that keeps impacts and the load of the settled bed at
-    /// 0.3 % of the smallest diameter.
+    /// 0.25 % of the smallest diameter.
     pub stiffness: Option<f64>,
     /// Restitution e of a dry contact [-].
     pub restitution: f64,

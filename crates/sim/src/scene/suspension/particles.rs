@@ -9,8 +9,8 @@ const COMPRESSION: f64 = 0.01;
 /// Porosity of the densest bed that grains settle to [-].
 const PACKED: f64 = 0.36;
 /// Way of the fastest grains between two refreshes of the weights, over the exchange length [-]. From 0.01 to
-/// 0.04 the interface's speed changes by 2e-4, at 0.08 by 8e-4.
-const WAY: f64 = 0.04;
+/// 0.04 the interface's speed changes by 2e-4, to 0.08 by 8e-4.
+const WAY: f64 = 0.06;
 /// Solids in the cube of an exchange length, over those in the cube of a diameter where they fill it [-]. In
 /// glass and water at a porosity of 0.9 the velocities of the grains scatter more and more below 5, the
 /// faster the fewer they are; from 7 to 22 the scatter falls and the interface's speed stays within 0.6 %.

@@ -39,6 +39,11 @@ pub trait Settling {
 
     fn counters(&self) -> Counters;
 
+    /// What the run spent its time on so far [s], by name.
+    fn split_of_time(&self) -> Vec<(&'static str, f64)> {
+        Vec::new()
+    }
+
     /// Largest rate of momentum that was not closed so far [N].
     fn momentum_gap(&self) -> f64;
 }

@@ -17,6 +17,9 @@ use crate::scene::sedimentation::start;
 use crate::scene::{Hydrostatics, PorosityPath, SharpeningChoice, SphFluid, Start, StressDensity};
 use crate::simulation::{CouplingRules, FreeGrains, GrainPorosity, GrainSet, Simulation, SlipRule};
 
+/// r/h from which on fluid particles get no weight [-]: outside lie half of the pairs and half a per cent of the
+/// kernel.
+const CUT: f64 = 1.6;
 /// Steps between two audits of momentum.
 const AUDIT_INTERVAL: u64 = 16;
 
@@ -142,12 +145,14 @@ fn exchange(
         PorosityPath::OnePass => particles.exchange_length(diameter),
         PorosityPath::TwoPass => fluid.numerics.smoothing(),
     };
+    let sharpening = match (scheme.porosity, scheme.sharpening) {
+        (PorosityPath::OnePass, SharpeningChoice::Conservative) => Sharpening::SECOND_ORDER,
+        _ => Sharpening::NONE,
+    };
     let rules = ExchangeRules {
-        sharpening: match (scheme.porosity, scheme.sharpening) {
-            (PorosityPath::OnePass, SharpeningChoice::Conservative) => Sharpening::SECOND_ORDER,
-            _ => Sharpening::NONE,
-        },
+        sharpening,
         floor_images: true,
+        cut: if sharpening == Sharpening::NONE { CUT } else { 2.0 },
     };
     Exchange::new(sizes(grains, length), rules, fluid, position)
 }
@@ -264,6 +269,10 @@ impl<L: PolydisperseLaw> Settling for InParticles<L> {
             list_rebuilds: simulation.fluid.rebuilds + work.lists,
             porosity_clips: simulation.porosity_clips,
         }
+    }
+
+    fn split_of_time(&self) -> Vec<(&'static str, f64)> {
+        self.simulation.split_of_time()
     }
 
     fn momentum_gap(&self) -> f64 {

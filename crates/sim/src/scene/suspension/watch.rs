@@ -61,6 +61,10 @@ impl<S: Settling> Recorded for Watch<'_, S> {
         false
     }
 
+    fn split_of_time(&self) -> Vec<(&'static str, f64)> {
+        self.settling.split_of_time()
+    }
+
     fn outcome(&mut self) -> Outcome {
         let deposit = self.deposit();
         let bed = self.settling.bed();

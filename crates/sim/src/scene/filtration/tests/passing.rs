@@ -126,6 +126,7 @@ fn a_run_that_is_stopped_tells_what_it_knows_of_those_who_have_just_come() {
                     asked.get() > patience
                 },
                 progress: &|_| {},
+                split: &|_| {},
             };
             let failure = run(&Scene::Filtration(scene.clone()), &control).unwrap_err();
             assert!(
