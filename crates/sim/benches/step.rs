@@ -204,7 +204,7 @@ fn shares(mut simulation: Simulation<DiFelice>) {
     let exchange = &mut simulation.exchange;
     milliseconds(
         "share_refresh",
-        median(|| seconds(|| exchange.refresh(&simulation.fluid, &position, &velocity)))
+        median(|| seconds(|| exchange.refresh(&simulation.fluid, 0.0, &position, &velocity)))
             / BLOCK_REFRESH as f64,
     );
     let mut sums = PorositySums::new(PorosityRules::FREE, vec![SIZE; position.len()], WIDTH);
@@ -218,28 +218,16 @@ fn shares(mut simulation: Simulation<DiFelice>) {
             seconds(|| sums.refresh(&places[0]))
         }) / BLOCK_REFRESH as f64,
     );
-    let mut sum = 0.0;
-    let order = exchange.order();
+    let mut samples = Vec::new();
     milliseconds(
         "share_sample",
-        median(|| {
-            seconds(|| {
-                let sampled = order.iter().map(|&i| exchange.sample(i as usize, &fields).0[0]);
-                sum += sampled.sum::<f64>();
-            })
-        }),
+        median(|| seconds(|| exchange.sample_all(&fields, &mut samples))),
     );
-    let impulse = [1.0; 4];
+    let given = vec![[1.0; 4]; position.len()];
     milliseconds(
         "share_spread",
-        median(|| {
-            seconds(|| {
-                for &i in order {
-                    exchange.spread(i as usize, impulse, &mut impulses);
-                }
-            })
-        }),
+        median(|| seconds(|| exchange.spread(&given, &mut impulses))),
     );
     // The sums are used, so that nothing of the work can be left out.
-    assert!(sum.is_finite() && impulses[0][0].is_finite());
+    assert!(samples[0].0[0].is_finite() && impulses[0][0].is_finite());
 }

@@ -70,6 +70,9 @@ pub enum FailureKind {
     Stopped,
 }
 
+/// What a run spent its time on [s], by name.
+pub type SplitOfTime = [(&'static str, f64)];
+
 /// How a running simulation talks to whoever started it.
 pub struct Control<'a> {
     /// Asked once per step; true ends the run with [`FailureKind::Stopped`].
@@ -77,7 +80,7 @@ pub struct Control<'a> {
     /// Told the finished fraction, 0 to 1, from time to time.
     pub progress: &'a dyn Fn(f64),
     /// Told at the end what the run spent its time on [s], by name, where the scene keeps count.
-    pub split: &'a dyn Fn(&[(&'static str, f64)]),
+    pub split: &'a dyn Fn(&SplitOfTime),
 }
 
 impl Control<'_> {

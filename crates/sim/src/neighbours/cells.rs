@@ -120,10 +120,9 @@ impl CellGrid {
                     let y = load::<W>(&self.places[1], at) - own[1];
                     let z = load::<W>(&self.places[2], at) - own[2];
                     let distances = (x * x + y * y + z * z).lanes();
-                    for lane in 0..LANES.min(last - at) {
-                        let near = distances[lane] < squared && distances[lane] > 0.0;
-                        found[count] = self.members[at + lane];
-                        count += usize::from(near);
+                    for (member, distance) in self.members[at..last].iter().zip(distances) {
+                        found[count] = *member;
+                        count += usize::from(distance < squared && distance > 0.0);
                     }
                 }
             }
