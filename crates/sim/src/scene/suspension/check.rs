@@ -10,6 +10,8 @@ use crate::scene::{CouplingLengths, Drag, Scheme, SphFluid};
 const LEAST_POROSITY: f64 = 0.6;
 /// Fewest largest diameters across the column: no grain may meet itself.
 const FEWEST_ACROSS: f64 = 3.0;
+/// Support of the exchange kernel with the skin of its lists, over its length [-].
+const SUPPORT: f64 = 2.25;
 
 pub fn check(scene: &Suspension, list: &mut List) {
     let mut sound = classes(scene, list);
@@ -20,6 +22,7 @@ pub fn check(scene: &Suspension, list: &mut List) {
     if let (true, SuspendingFluid::Sph(fluid)) = (sound, &scene.fluid) {
         sound &= particle_fluid(fluid, scene.smallest_diameter(), &scene.column, list);
         sound &= scheme(fluid, list);
+        sound = sound && kernels_fit(scene, fluid, list);
         if sound {
             fluid_step(scene, fluid, list);
         }
@@ -131,6 +134,24 @@ fn wide_enough(scene: &Suspension, list: &mut List) -> bool {
         }
     }
     sound
+}
+
+/// Whether no kernel meets its own image across the periodic sides.
+fn kernels_fit(scene: &Suspension, fluid: &SphFluid, list: &mut List) -> bool {
+    let particles = Particles { scene, sph: fluid };
+    let support = SUPPORT * particles.exchange_length(scene.largest_diameter());
+    let width = scene.column.width;
+    let fits = width >= support;
+    if !fits {
+        let message = format!(
+            "`width` {} is below the {} over which a grain hands its drag to the fluid",
+            millimetres(width),
+            millimetres((support * 1e5).ceil() * 1e-5)
+        );
+        let help = "make the column wider, the grains smaller, or the suspension denser";
+        list.add("column.width", message, help);
+    }
+    fits
 }
 
 /// Grains there are, and those of them that make the interface.
